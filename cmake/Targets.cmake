@@ -1,0 +1,28 @@
+# One static library a layer. vitrum_layer(NAME SOURCES ... LINK ...) sets warnings, sanitizers and include roots.
+# Include roots: the project root ("materials/..", "integrators/..") and src ("tensor/..", "mpm/..").
+function(vitrum_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict)  # GCC 12 warns of its own std::string at -O3 (bug 105651)
+  endif()
+  if(VITRUM_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(VITRUM_NATIVE)
+    target_compile_options(${target} PRIVATE -O3 -march=native)
+  endif()
+  # Neither flag changes a result: no code reads errno after a mathematical function or traps a floating-point exception.
+  target_compile_options(${target} PRIVATE -fno-math-errno -fno-trapping-math)
+  if(VITRUM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${VITRUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${VITRUM_SANITIZE})
+  endif()
+endfunction()
+
+function(vitrum_layer target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  target_include_directories(${target} PUBLIC "${CMAKE_SOURCE_DIR}" "${CMAKE_SOURCE_DIR}/src")
+  target_link_libraries(${target} PUBLIC ${ARG_LINK})
+  vitrum_compile_options(${target})
+endfunction()

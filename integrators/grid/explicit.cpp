@@ -1,0 +1,99 @@
+#include "integrators/grid/explicit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/transfer.hpp"
+
+namespace vitrum {
+
+using mpm::Gather;
+using mpm::Scatter;
+
+ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> step, std::optional<double> courant)
+    : scheme_(scheme), step_(step), courant_(courant) {}
+
+void ExplicitIntegrator::take_step(System& system, double duration) const {
+  system.record.external_work = 0.0;
+  mpm::refresh_grid(system);
+  switch (scheme_) {
+    case StepScheme::usf:
+      mpm::scatter(system, Scatter::momentum);
+      mpm::project_velocities(system);
+      mpm::gather(system, Gather::strain, duration);
+      mpm::update_stress(system, duration);
+      mpm::scatter(system, Scatter::force);
+      mpm::apply_forces(system, duration);
+      mpm::gather(system, Gather::velocity_and_position, duration);
+      break;
+    case StepScheme::usl:
+      mpm::scatter(system, Scatter::momentum_and_force);
+      mpm::project_velocities(system);
+      mpm::apply_forces(system, duration);
+      mpm::gather(system, Gather::all_from_new, duration);
+      mpm::update_stress(system, duration);
+      break;
+    case StepScheme::musl:
+      mpm::scatter(system, Scatter::momentum_and_force);
+      mpm::project_velocities(system);
+      mpm::apply_forces(system, duration);
+      mpm::gather(system, Gather::velocity_and_rescatter, duration);
+      mpm::project_velocities(system);
+      mpm::gather(system, Gather::strain_and_position, duration);
+      mpm::update_stress(system, duration);
+      break;
+  }
+  ++system.step_index;
+}
+
+void ExplicitIntegrator::count(double duration) {
+  IntegratorCounters& c = state_.counters;
+  c.step_min = c.steps == 0 ? duration : std::min(c.step_min, duration);
+  c.step_max = std::max(c.step_max, duration);
+  ++c.steps;
+  ++c.rhs_evaluations;
+}
+
+bool ExplicitIntegrator::advance(System& system, double target, StepObserver& observer) {
+  return step_ ? advance_fixed(system, target, observer) : advance_courant(system, target, observer);
+}
+
+bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserver& observer) {
+  if (state_.segment_steps == 0) {  // otherwise: resumed in the middle of a segment
+    state_.segment_start = system.time;
+    state_.segment_steps = static_cast<std::int64_t>(std::max(1.0, std::ceil((target - system.time) / *step_ - 1e-6)));
+    state_.segment_done = 0;
+  }
+  const double span = target - state_.segment_start;
+  const double duration = span / static_cast<double>(state_.segment_steps);
+  while (state_.segment_done < state_.segment_steps) {
+    take_step(system, duration);
+    count(duration);
+    if (duration < *step_ * (1.0 - 1e-6)) ++state_.counters.limited_by_output;
+    ++state_.segment_done;
+    const bool last = state_.segment_done == state_.segment_steps;
+    system.time = last ? target : state_.segment_start + duration * static_cast<double>(state_.segment_done);
+    if (last) state_.segment_steps = state_.segment_done = 0;
+    if (!observer.step_done(system, duration)) return last;
+    if (last) return true;
+  }
+  return true;
+}
+
+bool ExplicitIntegrator::advance_courant(System& system, double target, StepObserver& observer) {
+  while (system.time < target) {
+    const double stable = *courant_ * critical_step(system, scheme_).step;
+    const double left = target - system.time;
+    // The last two steps share what is left, so that no step is much shorter than its neighbours.
+    const bool last = left <= stable * (1.0 + 1e-9);
+    const double duration = last ? left : (left < 2.0 * stable ? 0.5 * left : stable);
+    take_step(system, duration);
+    count(duration);
+    ++(duration < stable ? state_.counters.limited_by_output : state_.counters.limited_by_stability);
+    system.time = last ? target : system.time + duration;
+    if (!observer.step_done(system, duration)) return last;
+  }
+  return true;
+}
+
+}  // namespace vitrum

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+
+#include "mpm/system.hpp"
+
+namespace vitrum {
+
+/// How much work the integration of the momentum equations took so far.
+struct IntegratorCounters {
+  std::int64_t steps = 0, rejected = 0, rhs_evaluations = 0, newton_iterations = 0, factorisations = 0;
+  double step_min = 0.0, step_max = 0.0;  ///< s; 0 before the first step
+  std::int64_t limited_by_stability = 0, limited_by_accuracy = 0, limited_by_output = 0;
+};
+
+/// How much work the local constitutive equations took so far.
+struct ConstitutiveCounters {
+  std::int64_t evaluations = 0, cvode_solves = 0, cvode_steps = 0, cvode_rhs = 0, failures = 0, events = 0;
+};
+
+/// Sees every accepted step; may stop the run.
+class StepObserver {
+ public:
+  virtual ~StepObserver() = default;
+  /// Returns false to stop after this step (the integrator then returns with the time reached).
+  /// step: s, just taken; system.record says what it did.
+  virtual bool step_done(System& system, double step) = 0;
+};
+
+/// What must be kept besides the particles so that a resumed run takes the same steps.
+struct IntegratorState {
+  double segment_start = 0.0;        ///< s, time of the last output or checkpoint target reached
+  std::int64_t segment_steps = 0;    ///< equal steps planned from there to the next target; 0: none planned
+  std::int64_t segment_done = 0;     ///< of these, taken
+  IntegratorCounters counters;
+};
+
+/// Advances a whole system in time.
+class GridIntegrator {
+ public:
+  virtual ~GridIntegrator() = default;
+  /// Steps to `target` (s) or until the observer stops it. Returns true when the target is reached.
+  virtual bool advance(System& system, double target, StepObserver& observer) = 0;
+  virtual const IntegratorState& state() const = 0;
+  virtual void restore(const IntegratorState& state) = 0;
+};
+
+}  // namespace vitrum

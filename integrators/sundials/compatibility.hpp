@@ -1,0 +1,17 @@
+#pragma once
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_context.h>
+
+/// The only place that looks at SUNDIALS_VERSION: what differs between 6.4 and 7.x is given one name here.
+namespace vitrum::sundials {
+
+/// Creates a context without MPI. SUNDIALS 7 takes a communicator handle, SUNDIALS 6 a pointer to one.
+inline int create_context(SUNContext* context) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  return SUNContext_Create(SUN_COMM_NULL, context);
+#else
+  return SUNContext_Create(nullptr, context);
+#endif
+}
+
+}  // namespace vitrum::sundials

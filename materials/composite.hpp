@@ -1,0 +1,97 @@
+#pragma once
+#include <algorithm>
+#include <limits>
+
+#include "materials/material.hpp"
+#include "materials/root.hpp"
+
+namespace vitrum {
+
+enum class Yielding { none, von_mises, drucker_prager };
+
+/// The models of one material put together. What the template arguments leave out is neither computed nor loaded nor stored.
+///
+/// An increment is a straight line in (corotational) strain. It is followed leg by leg: a leg ends where the mean strain changes
+/// sign (damage acts on one side, Drucker-Prager on the other), at localisation, or with the increment. Within a leg the state
+/// after any fraction is closed-form (`follow`), so events are located by bisection and a leg of any length does not overshoot.
+template <bool has_damage, Yielding yielding, bool has_decohesion>
+class Composite final : public Material {
+ public:
+  Composite(const MaterialParameters& parameters, double cell);
+
+  const MaterialParameters& parameters() const override { return parameters_; }
+  std::span<const VariableInfo> variables() const override { return variables_; }
+  double wave_speed() const override { return std::sqrt(elastic_.p_wave() / parameters_.elastic.density); }
+  PointState initial_state(const SymmetricTensor& stress) const override;
+  void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,
+               PointReport& report) const override;
+  void respond(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
+               BatchReport& report) const override;
+  Moduli secant_moduli(const PointState& s) const override { return secant(trace(s.elastic_strain) > 0.0, s.crack_density); }
+  double damage(const PointState& s) const override;
+
+ private:
+  static constexpr bool has_yield = yielding != Yielding::none;
+  static constexpr bool elastic_only = !has_damage && !has_yield && !has_decohesion;
+
+  /// A straight piece of the strain path on one side of zero mean strain.
+  struct Leg {
+    PointState start;
+    SymmetricTensor strain;      ///< whole increment of the leg
+    bool tension;
+    double coefficient;          ///< C(R) of eq. 7 on this leg
+  };
+  struct Followed {
+    PointState state;
+    double plastic_dissipation = 0.0;
+  };
+
+  Moduli secant(bool tension, double crack_density) const {
+    if constexpr (has_damage) {
+      if (crack_density <= 0.0) return elastic_;
+      Moduli m = damage_.moduli(crack_density / crack_density_limit);
+      if (!tension) m.bulk = elastic_.bulk;  // closed cracks carry pressure
+      return m;
+    } else {
+      return elastic_;
+    }
+  }
+
+  // composite_intact.hpp
+  double advance_intact(PointState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
+  void release_excess_shear(PointState& s, double done, PointReport& report) const;
+  Followed follow(const Leg& leg, double fraction) const;
+  double leg_end(const Leg& leg) const;
+  double flow(PointState& s, const Moduli& moduli, double violated_before) const;
+  double yield_function(const PointState& s, const Moduli& moduli) const;
+  double localisation_criterion(const Leg& leg, const PointState& s) const;
+  bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
+  void start_decohesion(const Leg& leg, PointState& s) const;
+  void record_events(const Leg& leg, const PointState& end, double end_fraction, double done, PointReport& report) const;
+  double damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const;
+
+  // composite_localised.hpp
+  void advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,
+                         PointReport& report) const;
+  double advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration, bool at_once,
+                          double& separated_at, Dissipation& dissipation) const;
+  double advance_separated(PointState& s, const SymmetricTensor& strain) const;
+  void separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
+  void relax_crack(PointState& s) const;
+  void flow_behind_crack(PointState& s, Dissipation& dissipation) const;
+  PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain, const Moduli& moduli) const {
+    const SymmetricTensor stress = moduli.stress(strain);
+    return {plane.normal_part(stress), plane.tangential_part(stress), moduli.p_wave(), moduli.shear};
+  }
+
+  MaterialParameters parameters_;
+  std::vector<VariableInfo> variables_;
+  Moduli elastic_;
+  double cell_;
+  DamageLaw damage_;
+  VonMisesLaw von_mises_;
+  DruckerPragerLaw drucker_prager_;
+  DecohesionLaw decohesion_;
+};
+
+}  // namespace vitrum

@@ -1,0 +1,196 @@
+#pragma once
+#include "materials/composite.hpp"
+
+namespace vitrum {
+
+/// The rest of an increment after localisation (`done`: fraction of the increment before). Damage is frozen; the plane softens,
+/// separates, opens and closes; the material behind it may still flow.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,
+                                           PointReport& report) const {
+  double fraction = 0.0;
+  const auto record = [&](EventKind kind, double f) { report.record(kind, done + f * (1.0 - done)); };
+  // Each pass takes the increment to its next event: onset of softening, a substep of it, separation, a change of side.
+  for (int pass = 0; pass < 256 && fraction < 1.0; ++pass) {
+    const double left = 1.0 - fraction;
+    if (is_separated(s)) {
+      const double closed_at = advance_separated(s, left * strain);
+      if (closed_at >= 0.0) record(EventKind::closure, fraction + left * closed_at);
+      fraction = 1.0;
+    } else {
+      double separated_at = -1.0;
+      const double taken =
+          advance_cohesive(s, left * strain, left * duration, pass >= 128, separated_at, report.dissipation);
+      if (separated_at >= 0.0) record(EventKind::separation, fraction + left * separated_at);
+      fraction = taken >= 1.0 ? 1.0 : fraction + left * taken;
+    }
+  }
+  if (fraction < 1.0) s.elastic_strain += (1.0 - fraction) * strain;
+  if constexpr (has_yield) {
+    const double before = s.plastic_strain;
+    flow_behind_crack(s, report.dissipation);
+    if (before == 0.0 && s.plastic_strain > 0.0) record(EventKind::yield, 1.0);
+  }
+}
+
+/// One pass of the softening plane (0 <= lambda < 1); returns the fraction of `strain` it consumed. at_once: takes what is left
+/// in one implicit step with the moduli of the start (for the rare path that chatters about zero mean strain).
+template <bool D, Yielding Y, bool C>
+double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration, bool at_once,
+                                            double& separated_at, Dissipation& dissipation) const {
+  const double start_trace = trace(s.elastic_strain), change = trace(strain);
+  // The moduli are those of one side of zero mean strain: the pass ends where the side changes.
+  bool tension = start_trace > 0.0 || (start_trace == 0.0 && change > 0.0);
+  double end = 1.0;
+  const bool two_sides = s.crack_density > 0.0 && !at_once;
+  if (two_sides && (start_trace + change > 0.0) != tension && change != 0.0) {
+    end = std::clamp(-start_trace / change, 0.0, 1.0);
+    if (end < 1e-12) tension = !tension, end = 1.0;
+  }
+  const Moduli moduli = secant(tension, s.crack_density);
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
+  const auto traction_at = [&](double f) { return traction(plane, s.elastic_strain + f * strain, moduli); };
+  const auto effective = [&](const PlaneTraction& t) { return decohesion_.effective_traction(t.normal, t.tangential); };
+  const double strength = decohesion_.strength(s.decohesion, s.cohesive_strength);
+  const double rounding = 1e-13 * (s.cohesive_strength + effective(traction_at(0.0)));
+
+  // Below the strength: elastic with the opening frozen (the norm of a straight path is convex, so the end tells).
+  if (effective(traction_at(end)) <= strength + rounding) {
+    s.elastic_strain += end * strain;
+    return end;
+  }
+  // (An equilibrium that was solved for may fall short of the strength by rounding.)
+  if (effective(traction_at(0.0)) < strength - 1e-10 * s.cohesive_strength - rounding) {
+    const double onset = first_reached(0.0, end, [&](double f) { return effective(traction_at(f)) >= strength; });
+    s.elastic_strain += onset * strain;
+    return onset;
+  }
+
+  // Softening. The implicit step is exact in a pure mode; where the mode may turn, lambda moves by at most 0.1 at a time.
+  const PlaneTraction start = traction_at(0.0);
+  const double denominator = decohesion_.hardening_denominator(s.decohesion, s.cohesive_strength, start, s.effective_length);
+  const bool viscous = decohesion_.viscosity() > 0.0;
+  const double wanted = effective(traction_at(end)) - strength;
+  const double estimate = wanted / (decohesion_.reference_opening() * std::max(denominator, 1e-300));
+  const double step = denominator > 0.0 && !at_once ? end / std::clamp(std::ceil(estimate / 0.1), 1.0, 64.0) : end;
+  const auto advanced = [&](double f) {
+    return decohesion_.advance(s.decohesion, s.cohesive_strength, traction_at(f), s.effective_length, f * duration);
+  };
+  const auto soften = [&](double f, const DecohesionLaw::Advance& next) {
+    const double growth = next.decohesion - s.decohesion;
+    double surface = decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength);
+    if (viscous && f * duration > 0.0)  // the overstress tau_np eta lambda' works on the opening as well
+      surface += decohesion_.reference_opening() * s.cohesive_strength * decohesion_.viscosity() * growth * growth /
+                 (f * duration);
+    dissipation.fracture += surface / s.effective_length;
+    s.elastic_strain += f * strain - plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
+    s.decohesion = next.decohesion;
+    s.opening_n += next.normal_opening;
+    s.opening_t += next.tangential_opening;
+  };
+
+  if (denominator <= 0.0 && !viscous) {
+    // Snap-back at constant strain: to the next equilibrium (q < 1), or to separation. A touch more than the traction at hand
+    // leaves the equilibrium that is lost.
+    const double carried = effective(start);
+    const double push = (1.0 + 1e-10) * (carried > 0.0 ? std::max(1.0, strength / carried) : 1.0);
+    PlaneTraction pushed = start;
+    pushed.normal *= push, pushed.tangential *= push;
+    const DecohesionLaw::Advance next =
+        decohesion_.advance(s.decohesion, s.cohesive_strength, pushed, s.effective_length, 0.0);
+    if (next.separates) {
+      separated_at = 0.0;
+      separate(s, moduli, dissipation);
+    } else {
+      const double before = moduli.energy(s.elastic_strain), booked = dissipation.fracture;
+      soften(0.0, next);
+      const double excess =
+          std::max(0.0, before - moduli.energy(s.elastic_strain) - (dissipation.fracture - booked));
+      dissipation.fracture += excess;
+      dissipation.snap_back += excess;
+    }
+    return 0.0;
+  }
+  const DecohesionLaw::Advance next = advanced(step);
+  if (!next.separates) {
+    soften(step, next);
+    return step;
+  }
+  // The last equilibrium before separation: lambda near 1, or less where the softening turns into a snap-back on its way.
+  separated_at = first_reached(0.0, step, [&](double f) { return advanced(f).separates; });
+  const double last = separated_at - 1e-12 * step;
+  if (last > 0.0) soften(last, advanced(last));
+  s.elastic_strain += (separated_at - std::max(last, 0.0)) * strain;
+  separate(s, moduli, dissipation);
+  return separated_at;
+}
+
+/// lambda := 1: the traction on the plane is released. A snap-back sets free more than eq. 13 asks for.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const {
+  const double regular =
+      decohesion_.surface_energy(s.decohesion, 1.0, s.cohesive_strength) / s.effective_length;
+  const double before = moduli.energy(s.elastic_strain);
+  s.decohesion = 1.0;
+  relax_crack(s);
+  const double excess = std::max(0.0, before - secant_moduli(s).energy(s.elastic_strain) - regular);
+  dissipation.fracture += regular + excess;
+  dissipation.snap_back += excess;
+}
+
+/// Opens, slides or closes the crack until its faces carry no traction, or only pressure once closed (frictionless).
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::relax_crack(PointState& s) const {
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
+  const double length = s.effective_length;
+  bool tension = trace(s.elastic_strain) > 0.0;
+  // The traction is a monotone, piecewise linear function of the opening (two bulk moduli): at most one change of side.
+  for (int side = 0; side < 2; ++side) {
+    const Moduli moduli = secant(tension, s.crack_density);
+    const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
+    const double opening = t.normal_stiffness > 0.0 ? length * t.normal / t.normal_stiffness : 0.0;
+    const double sliding = t.tangential_stiffness > 0.0 ? length * t.tangential / t.tangential_stiffness : 0.0;
+    const double normal = std::max(opening, -s.opening_n);
+    const SymmetricTensor relaxed = s.elastic_strain - plane.jump_strain(normal, sliding, length);
+    if (side == 1 || (trace(relaxed) > 0.0) == tension) {
+      s.elastic_strain = relaxed;
+      s.opening_n = normal == -s.opening_n ? 0.0 : s.opening_n + normal;
+      s.opening_t += sliding;
+      return;
+    }
+    tension = !tension;
+  }
+}
+
+/// A separated plane over `strain`; returns the fraction at which an open crack closed, or -1.
+template <bool D, Yielding Y, bool C>
+double Composite<D, Y, C>::advance_separated(PointState& s, const SymmetricTensor& strain) const {
+  const double gap = s.opening_n;
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
+  const PlaneTraction change = traction(plane, strain, secant_moduli(s));
+  s.elastic_strain += strain;
+  relax_crack(s);
+  if (!(gap > 0.0) || s.opening_n > 0.0) return -1.0;
+  // Between traction-free faces the gap shrinks linearly along the path until they meet.
+  const double closing = -change.normal * s.effective_length;
+  return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
+}
+
+/// Plastic flow of a localised point. Flow and traction-free faces are met in turn until both hold.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::flow_behind_crack(PointState& s, Dissipation& dissipation) const {
+  for (int i = 0; i < 25; ++i) {
+    const bool tension = trace(s.elastic_strain) > 0.0;
+    if (Y == Yielding::drucker_prager && tension) return;
+    const Moduli moduli = secant(tension, s.crack_density);
+    const double violated = yield_function(s, moduli);
+    if (violated <= 1e-9 * moduli.shear * norm(deviator(s.elastic_strain))) return;
+    dissipation.plastic += flow(s, moduli, i == 0 ? 0.0 : violated);
+    if (!is_separated(s)) return;
+    const double before = stored_energy(s);
+    relax_crack(s);
+    dissipation.plastic += std::max(0.0, before - stored_energy(s));
+  }
+}
+
+}  // namespace vitrum

@@ -1,0 +1,55 @@
+#pragma once
+#include <cmath>
+#include <span>
+
+#include "materials/description.hpp"
+
+namespace vitrum {
+
+/// Scene table [material.NAME] without its sub-tables.
+struct ElasticParameters {
+  double density = 0.0;  ///< kg/m^3
+  double young = 0.0;    ///< Pa
+  double poisson = 0.0;
+
+  static std::span<const ParameterInfo<ElasticParameters>> describe();
+};
+
+/// Bulk and shear modulus, Pa.
+struct Moduli {
+  double bulk, shear;
+
+  constexpr double p_wave() const { return bulk + 4.0 / 3.0 * shear; }
+  /// sigma = E : e
+  constexpr SymmetricTensor stress(const SymmetricTensor& e) const {
+    const double lame_trace = (bulk - 2.0 / 3.0 * shear) * trace(e);
+    return {lame_trace + 2.0 * shear * e.rr, lame_trace + 2.0 * shear * e.zz, lame_trace + 2.0 * shear * e.tt,
+            2.0 * shear * e.rz};
+  }
+  /// e = E^-1 : sigma
+  constexpr SymmetricTensor strain(const SymmetricTensor& sigma) const {
+    const double mean = trace(sigma) / 3.0, volumetric = mean / (3.0 * bulk), compliance = 0.5 / shear;
+    return {volumetric + compliance * (sigma.rr - mean), volumetric + compliance * (sigma.zz - mean),
+            volumetric + compliance * (sigma.tt - mean), compliance * sigma.rz};
+  }
+  /// e : E : e / 2, J per m^3
+  constexpr double energy(const SymmetricTensor& e) const {
+    const double t = trace(e);
+    const SymmetricTensor d = deviator(e);
+    return 0.5 * bulk * t * t + shear * contract(d, d);
+  }
+};
+
+/// Energy stored per reference volume V0, J/m^3, when the stress of `e` acts on the volume V0 (1 + tr e): exact for changes of volume
+/// and for changes of shape at constant volume. (The two together have no potential; docs/theory.md states the defect.)
+constexpr double stored_energy_of_volume(const Moduli& moduli, const SymmetricTensor& e) {
+  const double t = trace(e);
+  const SymmetricTensor d = deviator(e);
+  return moduli.bulk * t * t * (0.5 + t / 3.0) + (1.0 + t) * moduli.shear * contract(d, d);
+}
+
+constexpr Moduli elastic_moduli(const ElasticParameters& p) {
+  return {p.young / (3.0 * (1.0 - 2.0 * p.poisson)), p.young / (2.0 * (1.0 + p.poisson))};
+}
+
+}  // namespace vitrum

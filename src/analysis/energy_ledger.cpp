@@ -1,0 +1,61 @@
+#include "analysis/energy_ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/transfer.hpp"
+
+namespace vitrum {
+
+double stored_energy(const System& system) {
+  double sum = 0.0;
+  for (const Body& body : system.bodies) {
+    const Particles& p = body.particles;
+    const double specific_volume = 1.0 / body.material->parameters().elastic.density;
+    const std::vector<double>& crack_density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
+    for (std::size_t i = 0; i < p.size; ++i) {
+      PointState s;
+      s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i], p.elastic_strain[3][i]};
+      if (!crack_density.empty()) s.crack_density = crack_density[i];
+      sum += p.mass[i] * specific_volume * stored_energy_of_volume(body.material->secant_moduli(s), s.elastic_strain);
+    }
+  }
+  return sum;
+}
+
+EnergyLedger::EnergyLedger(const System& system) {
+  totals_.kinetic = mpm::kinetic_energy(system);
+  totals_.elastic = stored_energy(system);
+  totals_.initial = totals_.kinetic + totals_.elastic;
+}
+
+void EnergyLedger::book(const System& system) {
+  const StepRecord& r = system.record;
+  totals_.kinetic = r.kinetic;
+  totals_.elastic = r.elastic;
+  totals_.plastic += r.dissipated.plastic;
+  totals_.damage += r.dissipated.damage;
+  totals_.fracture += r.dissipated.fracture;
+  totals_.snap_back += r.dissipated.snap_back;
+  totals_.external += r.external_work;
+  if (totals_.initial > 0.0)
+    totals_.max_growth = std::max(totals_.max_growth, (r.kinetic + r.elastic) / totals_.initial);
+}
+
+double EnergyLedger::growth() const {
+  const double available = totals_.initial + std::max(totals_.external, 0.0);
+  const double present = totals_.kinetic + totals_.elastic;
+  // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with nothing.
+  return available > 1e-280 ? present / available : (std::isfinite(present) ? 1.0 : present);
+}
+
+EnergyTotals scaled(const EnergyTotals& t, double factor) {
+  EnergyTotals s = t;
+  for (double EnergyTotals::*member : {&EnergyTotals::initial, &EnergyTotals::kinetic, &EnergyTotals::elastic,
+                                       &EnergyTotals::plastic, &EnergyTotals::damage, &EnergyTotals::fracture,
+                                       &EnergyTotals::snap_back, &EnergyTotals::external})
+    s.*member *= factor;
+  return s;
+}
+
+}  // namespace vitrum

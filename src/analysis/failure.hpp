@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+
+#include "analysis/failure_report.hpp"
+#include "mpm/system.hpp"
+
+namespace vitrum {
+
+/// Damage D from which a particle counts as damaged (`first_damage`), and from which it belongs to the damage front.
+inline constexpr double damaged = 0.001, damage_front = 0.1;
+
+/// Follows failure through a run: first events as they happen, fronts and fragments on demand.
+class FailureAnalysis {
+ public:
+  explicit FailureAnalysis(const System& system);
+
+  /// Looks at the events of the last step, which was `step` seconds long.
+  void observe(const System& system, double step);
+  /// The report on the present state. with_fragments: also finds the connected pieces.
+  FailureReport report(const System& system, bool with_fragments) const;
+
+  /// What a checkpoint keeps.
+  struct Memory {
+    std::optional<FirstEvent> damage, localisation, separation;
+  };
+  const Memory& memory() const { return memory_; }
+  void restore(const Memory& memory) { memory_ = memory; }
+
+ private:
+  std::optional<bool> perforated(const System& system, const std::vector<std::size_t>& main_piece) const;
+
+  /// Extent of a body at the start.
+  struct Extent {
+    std::array<double, 2> min, max;
+  };
+  std::vector<Extent> extents_;
+  std::optional<std::size_t> projectile_, target_;
+  std::size_t direction_ = 1;  ///< component along which the projectile moves
+  double sense_ = -1.0;        ///< and its sign
+  Memory memory_;
+};
+
+}  // namespace vitrum

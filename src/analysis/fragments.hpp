@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "analysis/failure_report.hpp"
+#include "mpm/system.hpp"
+
+namespace vitrum {
+
+/// A connected set of unseparated particles of one body.
+struct ConnectedPiece {
+  std::size_t body;
+  std::vector<std::size_t> particles;
+};
+
+/// Connected components of the unseparated particles of every body whose material can separate, joining particles of a body
+/// within 1.5 cells; by falling number of particles. Separated particles belong to no piece: they are where the cracks run.
+std::vector<ConnectedPiece> connected_pieces(const System& system);
+
+/// Mass, centre and velocity of the pieces, by falling mass.
+std::vector<Fragment> fragments(const System& system, const std::vector<ConnectedPiece>& pieces);
+
+}  // namespace vitrum

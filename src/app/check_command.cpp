@@ -1,0 +1,103 @@
+#include "app/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/command_line.hpp"
+#include "integrators/grid/critical_step.hpp"
+#include "scene/build_system.hpp"
+#include "scene/read_scene.hpp"
+#include "scene/write_scene.hpp"
+
+namespace vitrum::app {
+namespace {
+
+double bytes_of(const System& system) {
+  double bytes = 0.0;
+  for (const Body& body : system.bodies) {
+    const Particles& p = body.particles;
+    std::size_t columns = 2 + 2 + 1 + 4 + 4 + 4 + 1;
+    for (const auto& v : p.variables) columns += v.empty() ? 0 : 1;
+    bytes += static_cast<double>(p.size * (columns * sizeof(double) + sizeof(std::uint32_t)));
+  }
+  return bytes;
+}
+
+nlohmann::ordered_json derived(const Scene& scene, const System& system) {
+  using json = nlohmann::ordered_json;
+  const double whole = system.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  json bodies = json::object();
+  for (const Body& body : system.bodies) {
+    double mass = 0.0;
+    for (const double m : body.particles.mass) mass += m * whole;
+    bodies[body.name] = {{"particles", body.particles.size},
+                         {"mass", mass},
+                         {"material", body.material->parameters().name},
+                         {"wave_speed", body.material->wave_speed()}};
+  }
+  const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
+  const double step = scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
+  return {{"title", scene.title},
+          {"particles", system.particle_count()},
+          {"memory_bytes", bytes_of(system)},
+          {"bodies", bodies},
+          {"critical_step", critical.step},
+          {"critical_body", critical.body},
+          {"step", step},
+          {"step_to_critical", step / critical.step},
+          {"steps", std::ceil((scene.end - scene.start) / step)}};
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Scene& scene, const System& system) {
+  std::vector<std::string> list;
+  const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
+  const double step = scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
+  if (step > critical.step)
+    list.push_back(fmt::format("integrator.step: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
+                               "m/s, fastest particle {:.4g} m/s); energy will grow",
+                               step, step / critical.step, critical.step, critical.body, critical.wave_speed,
+                               critical.travel_speed));
+  for (const MaterialParameters& m : scene.materials) {
+    if (!m.decohesion || !m.von_mises) continue;
+    // A plane on which the traction falls faster than the cell behind it can unload releases at once.
+    const Moduli moduli = elastic_moduli(m.elastic);
+    const double needed = m.von_mises->peak * scene.cell / moduli.p_wave();
+    if (m.decohesion->opening < needed && m.decohesion->viscosity == 0.0)
+      list.push_back(fmt::format("material.{}.decohesion.opening: {:.3g} m is below {:.3g} m, where decohesion snaps back on cells of "
+                                 "{:g} m: it will be instantaneous",
+                                 m.name, m.decohesion->opening, needed, scene.cell));
+  }
+  return list;
+}
+
+int check_scene(const CheckOptions& options) {
+  const Scene scene = read_scene(options.scene, options.overrides);
+  const System system = build_system(scene, 1);
+  const std::vector<std::string> warned = warnings(scene, system);
+  nlohmann::ordered_json facts = derived(scene, system);
+  if (options.json) {
+    facts["warnings"] = warned;
+    facts["resolved"] = resolved_toml(scene);
+    fmt::print("{}\n", facts.dump(2));
+    return exit_done;
+  }
+  for (const std::string& w : warned) fmt::print(stderr, "warning: {}\n", w);
+  fmt::print("# {} is valid\n", options.scene);
+  for (const auto& [name, body] : facts["bodies"].items())
+    fmt::print("# body '{}': {} particles, {:.6g} {}, material '{}', wave speed {:.5g} m/s\n", name,
+               body["particles"].get<std::size_t>(), body["mass"].get<double>(), system.axisymmetric ? "kg" : "kg/m",
+               body["material"].get<std::string>(), body["wave_speed"].get<double>());
+  fmt::print("# {} particles, {:.3g} MB\n", system.particle_count(), 1e-6 * bytes_of(system));
+  fmt::print("# critical step {:.6g} s (body '{}'); step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["critical_step"].get<double>(),
+             facts["critical_body"].get<std::string>(), facts["step"].get<double>(), facts["step_to_critical"].get<double>(),
+             facts["steps"].get<double>());
+  fmt::print("\n{}", resolved_toml(scene));
+  return exit_done;
+}
+
+}  // namespace vitrum::app

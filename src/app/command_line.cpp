@@ -1,0 +1,132 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "app/check_command.hpp"
+#include "app/point_command.hpp"
+#include "app/run_command.hpp"
+#include "mpm/computation_error.hpp"
+#include "output/info.hpp"
+#include "output/provenance.hpp"
+#include "output/reference_page.hpp"
+#include "scene/input_error.hpp"
+#include "scene/reference_page.hpp"
+
+namespace vitrum::app {
+namespace {
+
+/// One fact a line on standard error.
+int complain(const std::exception& error, int status) {
+  fmt::print(stderr, "error: {}\n", error.what());
+  return status;
+}
+
+template <class Command>
+int guarded(Command&& command) {
+  try {
+    return command();
+  } catch (const InputError& error) {
+    for (const std::string& message : error.messages()) fmt::print(stderr, "error: {}\n", message);
+    return exit_input;
+  } catch (const ComputationError& error) {
+    return complain(error, exit_computation);
+  } catch (const FileError& error) {
+    return complain(error, exit_file);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory; reduce the number of particles (space.cell, particles_per_cell)\n");
+    return exit_computation;
+  } catch (const std::exception& error) {
+    return complain(error, exit_computation);
+  }
+}
+
+std::string whole_command(int argc, char** argv) {
+  std::string text;
+  for (int i = 0; i < argc; ++i) text += (i ? " " : "") + std::string(argv[i]);
+  return text;
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App program{"vitrum: fragmentation of glass under impact by the material point method"};
+  program.require_subcommand(0, 1);
+  bool version = false;
+  program.add_flag("--version", version, "versions of vitrum and of the libraries it is built with");
+
+  RunOptions run;
+  run.command = whole_command(argc, argv);
+  const auto add_scene = [](CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
+    command.add_option("SCENE", scene, "scene file (TOML)")->required();
+    command.add_option("--set", overrides, "override a key of the scene: a.b.c=VALUE (a TOML value; list items by index)")
+        ->take_all()
+        ->allow_extra_args(false);
+  };
+  CLI::App& run_command = *program.add_subcommand("run", "run a scene");
+  add_scene(run_command, run.scene, run.overrides);
+  run_command.add_option("--out", run.directory, "folder for the results (default: out/NAME-OF-SCENE)");
+  run_command.add_option("--threads", run.threads, "threads; 0 chooses by the number of particles")->check(CLI::Range(0, 1024));
+  run_command.add_flag("--resume", run.resume, "continue from DIR/checkpoint.h5");
+  run_command.add_flag("--no-fields", run.no_fields, "write no particle data, only series and summary");
+  run_command.add_flag("--quiet", run.quiet, "print only warnings and errors");
+
+  CheckOptions check;
+  CLI::App& check_command = *program.add_subcommand("check", "validate a scene and print what follows from it; run nothing");
+  add_scene(check_command, check.scene, check.overrides);
+  check_command.add_flag("--json", check.json, "print JSON");
+
+  PointOptions point;
+  CLI::App& point_command = *program.add_subcommand("point", "drive one material point along a strain path");
+  point_command.add_option("POINT", point.file, "point file (TOML)")->required();
+  point_command.add_option("--set", point.overrides, "override a key: a.b.c=VALUE")->take_all()->allow_extra_args(false);
+  point_command.add_option("--out", point.out, "CSV file (default: standard output)");
+
+  std::string result;
+  bool json = false;
+  CLI::App& info_command = *program.add_subcommand("info", "what a result holds and how it was made");
+  info_command.add_option("RESULT", result, "result.h5 or the folder of a run")->required();
+  info_command.add_flag("--json", json, "print JSON");
+
+  std::vector<std::string> compared;
+  CLI::App& compare_command = *program.add_subcommand("compare", "differences between two results (not available in this version)");
+  compare_command.add_option("RESULTS", compared, "two results")->expected(2);
+  compare_command.add_flag("--json", json, "print JSON");
+
+  bool result_page = false;
+  CLI::App& reference_command = *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
+  reference_command.add_flag("--result", result_page, "the result reference instead");
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? exit_done : exit_input;
+  }
+  if (version) {
+    fmt::print("{}", output::version_text());
+    return exit_done;
+  }
+  if (run_command) return guarded([&] { return run_scene(run); });
+  if (check_command) return guarded([&] { return check_scene(check); });
+  if (point_command) return guarded([&] { return drive_point(point); });
+  if (info_command) {
+    return guarded([&] {
+      fmt::print("{}", output::describe_result(result, json));
+      return exit_done;
+    });
+  }
+  if (compare_command) {
+    fmt::print(stderr, "error: command 'compare' is not available in this version\n");
+    return exit_input;
+  }
+  if (reference_command) {
+    fmt::print("{}", result_page ? output::result_reference() : scene_reference());
+    return exit_done;
+  }
+  fmt::print("{}", program.help());
+  return exit_input;
+}
+
+}  // namespace vitrum::app

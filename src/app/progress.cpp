@@ -1,0 +1,46 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace vitrum::app {
+
+Progress::Progress(double start, double end, bool quiet)
+    : start_(start), end_(end), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begun_(Clock::now()), last_(begun_) {
+  first_time_ = start;
+}
+
+void Progress::step(double time, double step, const IntegratorCounters& c) {
+  if (quiet_ || !terminal_ || ++calls_ % 64 != 0) return;
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < std::chrono::milliseconds(200)) return;
+  last_ = now;
+  drawn_ = true;
+  const double part = (time - start_) / (end_ - start_), computed = (time - first_time_) / (end_ - start_);
+  const double seconds = std::chrono::duration<double>(now - begun_).count();
+  const double left = computed > 0.0 ? seconds / computed * (1.0 - part) : 0.0;
+  const auto filled = static_cast<std::size_t>(part * 30.0);
+  const char* limit = c.limited_by_accuracy > c.limited_by_stability ? "accuracy"
+                      : c.limited_by_stability > 0                   ? "stability"
+                                                                     : "fixed step";
+  fmt::print(stderr, "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",
+             std::string(std::min<std::size_t>(filled, 30), '#'), 100.0 * part, 1e6 * time, 1e6 * step, c.steps, c.rejected,
+             limit, left);
+  std::fflush(stderr);
+}
+
+void Progress::output(double time, const IntegratorCounters& c, const EnergyTotals& e) {
+  if (quiet_ || terminal_) return;
+  fmt::print(stderr, "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} J  elastic {:.4g} J  residual {:+.2f} %\n", 1e6 * time,
+             c.steps, c.rejected, e.kinetic, e.elastic, 100.0 * e.relative_residual());
+}
+
+void Progress::finish() {
+  if (drawn_) fmt::print(stderr, "\r\033[K");
+  drawn_ = false;
+}
+
+}  // namespace vitrum::app

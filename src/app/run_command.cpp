@@ -1,0 +1,30 @@
+#include "app/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/check_command.hpp"
+#include "app/simulation.hpp"
+#include "scene/build_system.hpp"
+#include "scene/read_scene.hpp"
+
+namespace vitrum::app {
+
+int run_scene(const RunOptions& options) {
+  const Scene scene = read_scene(options.scene, options.overrides);
+  System system = build_system(scene, options.threads);
+  for (const std::string& w : warnings(scene, system)) fmt::print(stderr, "warning: {}\n", w);
+
+  const std::filesystem::path directory =
+      options.directory.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
+                                : std::filesystem::path(options.directory);
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+
+  Simulation simulation(scene, std::move(system), options, directory);
+  return simulation.run();
+}
+
+}  // namespace vitrum::app

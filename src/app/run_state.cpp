@@ -1,0 +1,72 @@
+#include "app/run_state.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/input_error.hpp"
+
+namespace vitrum::app {
+namespace {
+
+/// Walks through everything of a state that is a number, the same way for writing and reading. Counts are far below 2^53.
+template <class State, class Visit>
+void visit_numbers(State& s, Visit&& visit) {
+  auto& e = s.energy;
+  visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.external, e.max_growth);
+  auto& i = s.integrator;
+  visit("integrator", i.segment_start, i.segment_steps, i.segment_done, i.counters.steps, i.counters.rejected,
+        i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations, i.counters.step_min,
+        i.counters.step_max, i.counters.limited_by_stability, i.counters.limited_by_accuracy, i.counters.limited_by_output);
+  visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.result_steps, s.evaluations, s.events,
+        s.wall_seconds);
+}
+
+const std::vector<double>& numbers_of(const output::Checkpoint& c, const std::string& name, std::size_t count) {
+  const auto entry = c.numbers.find(name);
+  if (entry == c.numbers.end() || entry->second.size() != count)
+    throw FileError(fmt::format("checkpoint: '{}' is missing or does not hold {} numbers", name, count));
+  return entry->second;
+}
+
+template <class T>
+void assign(T& to, double value) {
+  to = static_cast<T>(value);
+}
+
+struct NamedEvent {
+  const char* name;
+  std::optional<FirstEvent> FailureAnalysis::Memory::*member;
+};
+constexpr NamedEvent first_events[] = {{"first_damage", &FailureAnalysis::Memory::damage},
+                                       {"first_localisation", &FailureAnalysis::Memory::localisation},
+                                       {"first_separation", &FailureAnalysis::Memory::separation}};
+
+}  // namespace
+
+void store(const RunState& state, output::Checkpoint& checkpoint) {
+  visit_numbers(state, [&](const char* name, const auto&... values) {
+    checkpoint.numbers[name] = {static_cast<double>(values)...};
+  });
+  for (const auto& [name, member] : first_events)
+    if (const std::optional<FirstEvent>& first = state.failure.*member) {
+      checkpoint.numbers[name] = {first->time, first->r, first->z};
+      checkpoint.texts[name] = first->body;
+    }
+}
+
+RunState restored(const output::Checkpoint& checkpoint) {
+  RunState state;
+  visit_numbers(state, [&](const char* name, auto&... values) {
+    const std::vector<double>& numbers = numbers_of(checkpoint, name, sizeof...(values));
+    std::size_t k = 0;
+    (assign(values, numbers[k++]), ...);
+  });
+  for (const auto& [name, member] : first_events)
+    if (checkpoint.numbers.contains(name)) {
+      const std::vector<double>& n = numbers_of(checkpoint, name, 3);
+      const auto body = checkpoint.texts.find(name);
+      state.failure.*member = FirstEvent{n[0], n[1], n[2], body == checkpoint.texts.end() ? "" : body->second};
+    }
+  return state;
+}
+
+}  // namespace vitrum::app

@@ -1,0 +1,173 @@
+#include "app/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/command_line.hpp"
+#include "app/signals.hpp"
+#include "integrators/grid/explicit.hpp"
+#include "mpm/computation_error.hpp"
+#include "output/particle_fields.hpp"
+#include "output/sha256.hpp"
+#include "output/xdmf.hpp"
+#include "scene/build_system.hpp"
+#include "scene/input_error.hpp"
+#include "scene/write_scene.hpp"
+
+namespace vitrum::app {
+
+Simulation::Simulation(const Scene& scene, System system, const RunOptions& options, std::filesystem::path directory)
+    : scene_(scene),
+      options_(options),
+      directory_(std::move(directory)),
+      system_(std::move(system)),
+      whole_(system_.axisymmetric ? 2.0 * std::numbers::pi : 1.0),
+      integrator_(std::make_unique<ExplicitIntegrator>(step_scheme(scene.integrator.scheme), scene.integrator.step,
+                                                       scene.integrator.courant)),
+      ledger_(system_),
+      failure_(system_),
+      watchdog_(scene.integrator.max_growth, step_scheme(scene.integrator.scheme)),
+      schedule_(scene),
+      progress_(scene.start, scene.end, options.quiet) {
+  const std::vector<const Material*> materials = output::materials_of(system_.bodies);
+  fields_ = output::select_fields(scene.output.fields, materials);
+  if (options_.no_fields) fields_.clear();
+  provenance_ = output::make_provenance(options.command, output::sha256(resolved_toml(scene)));
+  catch_signals();
+  options.resume ? resume() : start();
+}
+
+void Simulation::start() {
+  result_ = output::ResultFile::create(
+      directory_, {scene_.title, scene_.verbatim, resolved_toml(scene_), provenance_,
+                   options_.no_fields ? output::ParticleConstants{} : output::particle_constants(system_.bodies, scene_.geometry)});
+  energy_csv_ = output::EnergyCsv::create(directory_ / "energy.csv");
+  write_energy_row();
+  ++state_.energy_times;
+  if (schedule_.output_at_start()) write_output();
+}
+
+void Simulation::resume() {
+  const output::Checkpoint checkpoint = output::read_checkpoint(directory_ / "checkpoint.h5");
+  if (checkpoint.scene_sha256 != provenance_.scene_sha256)
+    throw InputError(fmt::format("{}: found a checkpoint of another scene (or other --set values); expected the one of this scene",
+                                 (directory_ / "checkpoint.h5").string()));
+  output::restore_bodies(checkpoint, system_.bodies);
+  state_ = restored(checkpoint);
+  system_.time = checkpoint.time;
+  system_.step_index = checkpoint.step_index;
+  system_.constitutive_evaluations = state_.evaluations;
+  system_.constitutive_events = state_.events;
+  ledger_ = EnergyLedger(state_.energy);
+  failure_.restore(state_.failure);
+  integrator_->restore(state_.integrator);
+  result_ = output::ResultFile::reopen(directory_, static_cast<std::size_t>(state_.result_steps));
+  energy_csv_ = output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
+}
+
+int Simulation::run() {
+  while (true) {
+    const Schedule::Target target = schedule_.next(state_.outputs, state_.checkpoints);
+    const bool reached = advance_to(target.time);
+    if (failed_) return finish(output::RunStatus::failed, *failed_, exit_computation);
+    if (reached) {
+      if (target.output) {
+        ++state_.outputs;
+        write_output();
+      }
+      if (target.checkpoint) {
+        ++state_.checkpoints;
+        write_checkpoint();
+      }
+      if (system_.time >= scene_.end) return finish(output::RunStatus::complete, "", exit_done);
+    }
+    if (const int signal = caught_signal()) {
+      write_checkpoint();
+      return finish(output::RunStatus::interrupted,
+                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with --resume --out {}", signal,
+                                system_.time, directory_.string()),
+                    128 + signal);
+    }
+  }
+}
+
+bool Simulation::advance_to(double target) {
+  const auto begun = std::chrono::steady_clock::now();
+  bool reached = false;
+  try {
+    reached = integrator_->advance(system_, target, *this);
+  } catch (const ComputationError& error) {
+    failed_ = watchdog_.describe(system_, error.what(), last_step_);
+  }
+  state_.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return reached;
+}
+
+bool Simulation::step_done(System& system, double step) {
+  last_step_ = step;
+  ledger_.book(system);
+  failure_.observe(system, step);
+  failed_ = watchdog_.look(system, ledger_, step);
+  if (failed_) return false;
+  if (system.time >= schedule_.energy_row(state_.energy_times)) {
+    write_energy_row();
+    while (system.time >= schedule_.energy_row(state_.energy_times)) ++state_.energy_times;
+  }
+  progress_.step(system.time, step, integrator_->state().counters);
+  return caught_signal() == 0;
+}
+
+void Simulation::write_energy_row() {
+  energy_csv_->append(system_.time, system_.step_index, shown_energy());
+  state_.energy_rows = static_cast<std::int64_t>(energy_csv_->rows());
+}
+
+std::vector<output::SeriesValue> Simulation::series() const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const EnergyTotals e = shown_energy();
+  const FailureReport f = failure_.report(system_, false);
+  const char* unit = system_.axisymmetric ? "J" : "J/m";
+  return {
+      {"kinetic", unit, "kinetic energy", e.kinetic},
+      {"elastic", unit, "stored elastic energy", e.elastic},
+      {"plastic", unit, "energy dissipated by plastic flow", e.plastic},
+      {"damage", unit, "energy dissipated by damage", e.damage},
+      {"fracture", unit, "energy dissipated by decohesion", e.fracture},
+      {"external", unit, "work of gravity and prescribed velocities", e.external},
+      {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
+      {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth},
+      {"localised", "1", "localised particles", static_cast<double>(f.localised)},
+      {"separated", "1", "separated particles", static_cast<double>(f.separated)},
+      {"localised_radius_max", "m", "largest r (|x|) of a localised particle; NaN: none", f.localised_radius_max.value_or(none)},
+      {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none", f.damage_front_radius.value_or(none)},
+      {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)},
+      {"step_size", "s", "last step", last_step_},
+      {"error_estimate", "1", "accumulated local error estimate of the integrator; NaN: explicit schemes make none", none},
+  };
+}
+
+void Simulation::write_output() {
+  output::OutputFrame frame{system_.time, system_.step_index, {}, series()};
+  if (!fields_.empty()) frame.fields = output::particle_fields(system_.bodies, fields_, scene_.geometry);
+  result_->append(frame);
+  if (!fields_.empty()) output::write_xdmf(*result_);
+  state_.result_steps = static_cast<std::int64_t>(result_->steps().size());
+  progress_.output(system_.time, integrator_->state().counters, shown_energy());
+}
+
+void Simulation::write_checkpoint() {
+  output::Checkpoint checkpoint{system_.time, system_.step_index, provenance_.scene_sha256,
+                                output::checkpoint_bodies(system_.bodies), {}, {}};
+  state_.energy = ledger_.totals();
+  state_.failure = failure_.memory();
+  state_.integrator = integrator_->state();
+  state_.evaluations = system_.constitutive_evaluations;
+  state_.events = system_.constitutive_events;
+  store(state_, checkpoint);
+  output::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
+}
+
+}  // namespace vitrum::app

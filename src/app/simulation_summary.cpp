@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/simulation.hpp"
+
+namespace vitrum::app {
+namespace {
+
+output::BodySummary summarise(const Body& body, double whole) {
+  output::BodySummary s;
+  const Particles& p = body.particles;
+  s.name = body.name;
+  s.particles = p.size;
+  for (std::size_t i = 0; i < p.size; ++i) {
+    const double m = whole * p.mass[i];
+    s.mass += m;
+    for (std::size_t k = 0; k < 2; ++k) {
+      s.momentum[k] += m * p.velocity[k][i];
+      s.centre[k] += m * p.position[k][i];
+      s.kinetic += 0.5 * m * p.velocity[k][i] * p.velocity[k][i];
+    }
+  }
+  for (double& c : s.centre) c /= s.mass;
+  const auto& length = p.variables[static_cast<std::size_t>(Variable::effective_length)];
+  const auto& decohesion = p.variables[static_cast<std::size_t>(Variable::decohesion)];
+  for (std::size_t i = 0; i < length.size(); ++i) s.localised += length[i] > 0.0, s.separated += decohesion[i] >= 1.0;
+  return s;
+}
+
+bool finite_state(const System& system) {
+  for (const Body& body : system.bodies)
+    for (std::size_t i = 0; i < body.particles.size; ++i) {
+      const Particles& p = body.particles;
+      const double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i] + p.stress[0][i] +
+                         p.stress[1][i] + p.stress[2][i] + p.stress[3][i];
+      if (!std::isfinite(sum)) return false;
+    }
+  return true;
+}
+
+std::string place(const std::optional<FirstEvent>& e) {
+  return e ? fmt::format("{:.3f} us at ({:.2f}, {:.2f}) mm in '{}'", 1e6 * e->time, 1e3 * e->r, 1e3 * e->z, e->body) : "none";
+}
+
+}  // namespace
+
+int Simulation::finish(output::RunStatus status, const std::string& message, int exit_status) {
+  progress_.finish();
+  // What a failed run computed last is a result, as long as it is numbers.
+  if (status == output::RunStatus::failed && finite_state(system_)) write_output();
+  if (status != output::RunStatus::interrupted) write_energy_row();  // a resumed run goes on with the rows of its checkpoint
+  result_->close();
+  const output::RunSummary s = summary(status, message);
+  output::write_summary(directory_ / "summary.json", s);
+  if (!options_.quiet) print_summary(s);
+  if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
+  if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
+  return exit_status;
+}
+
+output::RunSummary Simulation::summary(output::RunStatus status, const std::string& message) const {
+  output::RunSummary s;
+  s.status = status;
+  s.message = message;
+  s.time = system_.time;
+  s.particles = system_.particle_count();
+  s.wall_seconds = state_.wall_seconds;
+  s.threads = system_.team->size();
+  s.integrator_method = "explicit";
+  s.constitutive_method = "closed-form";
+  s.integrator = integrator_->state().counters;
+  s.constitutive.evaluations = system_.constitutive_evaluations;
+  s.constitutive.events = system_.constitutive_events;
+  s.energy = shown_energy();
+  s.failure = failure_.report(system_, finite_state(system_));
+  for (const Body& body : system_.bodies) s.bodies.push_back(summarise(body, whole_));
+  s.provenance = provenance_;
+  return s;
+}
+
+void Simulation::print_summary(const output::RunSummary& s) const {
+  const EnergyTotals& e = s.energy;
+  const char* unit = system_.axisymmetric ? "J" : "J/m";
+  const double rate = s.wall_seconds > 0.0 ? static_cast<double>(s.constitutive.evaluations) / s.wall_seconds : 0.0;
+  fmt::print("{}: {} particles, {} steps to t = {:.4g} us in {:.2f} s ({:.3g} particle-steps/s, {} thread{})\n", scene_.title,
+             s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate, s.threads, s.threads == 1 ? "" : "s");
+  fmt::print("energy ({}): initial {:.5g}, kinetic {:.5g}, elastic {:.5g}, plastic {:.5g}, damage {:.5g}, fracture {:.5g}, external "
+             "{:.5g}\n",
+             unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
+  fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit, 100.0 * e.relative_residual(),
+             e.max_growth);
+  const FailureReport& f = s.failure;
+  fmt::print("first damage        {}\nfirst localisation  {}\nfirst separation    {}\n", place(f.first_damage),
+             place(f.first_localisation), place(f.first_separation));
+  fmt::print("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated, f.fragments.size(),
+             f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
+  fmt::print("results in {}\n", directory_.string());
+}
+
+}  // namespace vitrum::app

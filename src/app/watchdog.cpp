@@ -1,0 +1,47 @@
+#include "app/watchdog.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace vitrum::app {
+
+std::optional<std::string> Watchdog::look(const System& system, const EnergyLedger& ledger, double step) const {
+  const EnergyTotals& e = ledger.totals();
+  if (!std::isfinite(e.kinetic + e.elastic + e.external + e.plastic + e.damage + e.fracture))
+    return describe(system, "the energy is not finite", step);
+  const double growth = ledger.growth();
+  if (growth <= max_growth_) return std::nullopt;
+  return describe(system,
+                  fmt::format("kinetic + elastic energy has grown to {:.4g} times the energy put in (bound: integrator.max_growth "
+                              "= {:g})",
+                              growth, max_growth_),
+                  step);
+}
+
+std::string Watchdog::describe(const System& system, const std::string& cause, double step) const {
+  std::string text = fmt::format("t = {:.6e} s, step {}: {}", system.time, system.step_index, cause);
+  const Body* fastest = nullptr;
+  std::size_t particle = 0;
+  double speed = -1.0;
+  for (const Body& body : system.bodies)
+    for (std::size_t i = 0; i < body.particles.size; ++i) {
+      const double v = std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]);
+      if (v > speed || std::isnan(v)) speed = v, fastest = &body, particle = i;
+      if (std::isnan(v)) break;
+    }
+  if (fastest != nullptr)
+    text += fmt::format("; fastest: body '{}', particle {} at ({:.6g}, {:.6g}) m with {:.4g} m/s", fastest->name,
+                        fastest->particles.identity[particle], fastest->particles.position[0][particle],
+                        fastest->particles.position[1][particle], speed);
+  // The critical step of the scene's own speeds: those of a run that has blown up would tell nothing.
+  double critical = std::numeric_limits<double>::infinity();
+  for (const Body& body : system.bodies)
+    critical = std::min(critical, stability_limit(scheme_) * system.cell / body.material->wave_speed());
+  text += fmt::format("; the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try integrator.step = "
+                      "{:.2g} or integrator.courant = 0.4 (integrator.max_growth = inf runs on regardless)",
+                      step, step / critical, critical, 0.4 * critical);
+  return text;
+}
+
+}  // namespace vitrum::app

@@ -1,0 +1,76 @@
+#include <limits>
+
+#include "mpm/transfer.hpp"
+
+namespace vitrum::mpm {
+namespace {
+
+double prescribed(const Grid& grid, std::size_t component, std::int16_t by) {
+  return by == Constraint::axis ? 0.0 : grid.boundaries()[static_cast<std::size_t>(by)].velocity[component];
+}
+
+/// Sets the held components of a block's nodes in `field` (its component 0; component 1 follows).
+void impose(Grid& grid, std::size_t block, Field component_0) {
+  for (std::size_t component = 0; component < 2; ++component) {
+    double* velocity = grid.field(static_cast<Field>(static_cast<std::size_t>(component_0) + component));
+    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+      const std::int16_t by = grid.constraint(component, n);
+      if (by != Constraint::free) velocity[n] = prescribed(grid, component, by);
+    }
+  }
+}
+
+/// Mass below which a node counts as empty (what reaches it has underflowed).
+constexpr double empty = std::numeric_limits<double>::min();
+
+}  // namespace
+
+void project_velocities(System& system) {
+  Grid& grid = system.grid;
+  const double *mass = grid.field(Field::mass), *p0 = grid.field(Field::momentum_0), *p1 = grid.field(Field::momentum_1);
+  double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
+  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+      const double per_mass = mass[n] > empty ? 1.0 / mass[n] : 0.0;
+      v0[n] = p0[n] * per_mass;
+      v1[n] = p1[n] * per_mass;
+    }
+    if (grid.blocks()[block].constrained) impose(grid, block, Field::velocity_0);
+  });
+}
+
+void apply_forces(System& system, double duration) {
+  Grid& grid = system.grid;
+  const std::array<double, 2> gravity = system.gravity;
+  const bool has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0;
+  const double* mass = grid.field(Field::mass);
+  const std::array<const double*, 2> force{grid.field(Field::force_0), grid.field(Field::force_1)};
+  const std::array<const double*, 2> v{grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
+  const std::array<double*, 2> w{grid.field(Field::new_velocity_0), grid.field(Field::new_velocity_1)};
+  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+      const bool filled = mass[n] > empty;
+      const double scale = filled ? duration / mass[n] : 0.0;
+      w[0][n] = v[0][n] + scale * force[0][n] + (filled ? duration * gravity[0] : 0.0);
+      w[1][n] = v[1][n] + scale * force[1][n] + (filled ? duration * gravity[1] : 0.0);
+    }
+    if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
+  });
+
+  // External work, in the order of the blocks: gravity on every node, and the reaction -(f + m g) that keeps a node at its
+  // prescribed velocity. Held (zero-velocity) nodes and the axis do no work.
+  bool moving = false;
+  for (const Boundary& wall : grid.boundaries()) moving = moving || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
+  if (!has_gravity && !moving) return;
+  double work = 0.0;
+  for (std::size_t block = 0; block < grid.blocks().size(); ++block)
+    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n)
+      for (std::size_t c = 0; c < 2; ++c) {
+        work += mass[n] * gravity[c] * 0.5 * (v[c][n] + w[c][n]) * duration;
+        const std::int16_t by = grid.constraint(c, n);
+        if (by >= 0) work -= (force[c][n] + mass[n] * gravity[c]) * w[c][n] * duration;
+      }
+  system.record.external_work += work;
+}
+
+}  // namespace vitrum::mpm

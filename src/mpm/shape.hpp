@@ -1,0 +1,76 @@
+#pragma once
+#include <array>
+
+namespace vitrum::mpm {
+
+enum class ShapeKind { linear, gimp, bspline2 };
+
+/// Largest integer not above x. (std::floor is a library call on processors without SSE 4.1.)
+inline long long cell_of(double x) {
+  const auto truncated = static_cast<long long>(x);
+  return truncated - static_cast<long long>(x < static_cast<double>(truncated));
+}
+
+/// One-dimensional shape function values of one particle: nodes first .. first + count - 1.
+template <int count>
+struct Weights1 {
+  long long first;
+  std::array<double, count> value;  ///< N
+  std::array<double, count> slope;  ///< h dN/dx
+};
+
+/// The nodes a particle touches and N, h dN/dx there. x: position in cells; half: half the particle's side in cells (GIMP).
+template <ShapeKind kind>
+struct Shape1;
+
+/// Piecewise linear (the paper's).
+template <>
+struct Shape1<ShapeKind::linear> {
+  static constexpr int count = 2;
+  static Weights1<2> at(double x, double /*half*/) {
+    const long long cell = cell_of(x);
+    const double s = x - static_cast<double>(cell);
+    return {cell, {1.0 - s, s}, {-1.0, 1.0}};
+  }
+};
+
+/// Quadratic B-spline.
+template <>
+struct Shape1<ShapeKind::bspline2> {
+  static constexpr int count = 3;
+  static Weights1<3> at(double x, double /*half*/) {
+    const long long first = cell_of(x - 0.5);
+    const double s = x - static_cast<double>(first) - 1.0;  // in [-0.5, 0.5) about the middle node
+    return {first,
+            {0.5 * (0.5 - s) * (0.5 - s), 0.75 - s * s, 0.5 * (0.5 + s) * (0.5 + s)},
+            {s - 0.5, -2.0 * s, s + 0.5}};
+  }
+};
+
+/// Uniform GIMP: the linear function averaged over the particle's initial square.
+template <>
+struct Shape1<ShapeKind::gimp> {
+  static constexpr int count = 3;
+  static Weights1<3> at(double x, double half) {
+    const long long first = cell_of(x - half);
+    const double width = 0.5 / half;
+    Weights1<3> w{first, {}, {}};
+    for (int k = 0; k < 3; ++k) {
+      const double node = static_cast<double>(first + k), low = x - half - node, high = x + half - node;
+      w.value[static_cast<std::size_t>(k)] = width * (area(high) - area(low));
+      w.slope[static_cast<std::size_t>(k)] = width * (hat(high) - hat(low));
+    }
+    return w;
+  }
+
+ private:
+  static double hat(double t) { return t <= -1.0 || t >= 1.0 ? 0.0 : (t < 0.0 ? 1.0 + t : 1.0 - t); }
+  /// Integral of the hat from -1 to t.
+  static double area(double t) {
+    if (t <= -1.0) return 0.0;
+    if (t >= 1.0) return 1.0;
+    return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 0.5 + t - 0.5 * t * t;
+  }
+};
+
+}  // namespace vitrum::mpm

@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "materials/description.hpp"
+#include "mpm/particles.hpp"
+
+namespace vitrum::output {
+
+/// Name and column of what every particle has.
+/// `ParticlesType`: Particles or const Particles.
+template <class ParticlesType>
+auto stored_columns(ParticlesType& particles) {
+  using Column = std::remove_reference_t<decltype((particles.mass))>;
+  std::vector<std::pair<std::string, Column*>> columns;
+  const char* const components[] = {"rr", "zz", "tt", "rz"};
+  columns.emplace_back("position_r", &particles.position[0]);
+  columns.emplace_back("position_z", &particles.position[1]);
+  columns.emplace_back("velocity_r", &particles.velocity[0]);
+  columns.emplace_back("velocity_z", &particles.velocity[1]);
+  columns.emplace_back("mass", &particles.mass);
+  for (std::size_t c = 0; c < 4; ++c) {
+    columns.emplace_back(std::string("elastic_strain_") + components[c], &particles.elastic_strain[c]);
+    columns.emplace_back(std::string("stress_") + components[c], &particles.stress[c]);
+  }
+  return columns;
+}
+
+/// The same for the internal variables; those that the material does not have are empty.
+template <class ParticlesType>
+auto variable_columns(ParticlesType& particles) {
+  using Column = std::remove_reference_t<decltype((particles.mass))>;
+  std::vector<std::pair<std::string, Column*>> columns;
+  for (const VariableInfo& info : all_variables())
+    columns.emplace_back(info.name, &particles.variables[static_cast<std::size_t>(info.variable)]);
+  return columns;
+}
+
+}  // namespace vitrum::output

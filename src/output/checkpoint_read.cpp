@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "output/checkpoint.hpp"
+#include "output/checkpoint_columns.hpp"
+#include "output/checkpoint_header.hpp"
+#include "output/hdf5.hpp"
+#include "output/result_file.hpp"
+#include "output/sha256.hpp"
+
+namespace vitrum::output {
+namespace {
+
+/// HDF5 1.10 can crash on a damaged file; so the bytes are compared with their digest before HDF5 sees them.
+void require_intact(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  std::string line(checkpoint_header(sha256("")).size(), '\0');
+  file.read(line.data(), static_cast<std::streamsize>(line.size()));
+  if (!line.starts_with(checkpoint_magic))
+    throw FileError(fmt::format("{}: is not a checkpoint of this version: it does not begin with '{}'",
+                                path.string(), checkpoint_magic));
+  std::error_code failure;
+  if (std::filesystem::file_size(path, failure) < checkpoint_header_size || failure ||
+      line != checkpoint_header(sha256_of_file(path, checkpoint_header_size)))
+    throw FileError(
+        fmt::format("{}: is truncated or damaged: its content does not match its SHA-256", path.string()));
+}
+
+void require_size(const Group& group, const std::string& name, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw FileError(
+        fmt::format("{}: '{}' has {} entries, expected {}", group.label(), name, found, expected));
+}
+
+BodyCheckpoint read_body(const Group& group) {
+  BodyCheckpoint body{group.text_attribute(".", "name"), {}};
+  Particles& particles = body.particles;
+  particles.identity = group.read_indices("identity");
+  particles.size = particles.identity.size();
+  for (const auto& [name, column] : stored_columns(particles)) {
+    *column = group.read_doubles(name);
+    require_size(group, name, column->size(), particles.size);
+  }
+  const Group variables = group.open_group("variables");
+  std::size_t known = 0;
+  for (const auto& [name, column] : variable_columns(particles)) {
+    if (!variables.has(name)) continue;
+    *column = variables.read_doubles(name);
+    require_size(variables, name, column->size(), particles.size);
+    ++known;
+  }
+  if (variables.names().size() != known)
+    throw FileError(fmt::format("{}: holds a variable that this version does not know", variables.label()));
+  return body;
+}
+
+std::string variable_list(const Particles& particles) {
+  std::string list;
+  for (const auto& [name, column] : variable_columns(particles))
+    if (!column->empty()) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+[[noreturn]] void differ(std::string_view what, std::string_view found, std::string_view expected) {
+  throw FileError(fmt::format("the checkpoint does not belong to this scene: {}: found {}, expected {}", what,
+                              found, expected));
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const std::filesystem::path& path) {
+  require_intact(path);
+  const File file = File::open_to_read(path);
+  const Group& root = file.root();
+  Checkpoint checkpoint;
+  checkpoint.time = root.number_attribute(".", "time");
+  checkpoint.step_index = root.integer_attribute(".", "step_index");
+  checkpoint.scene_sha256 = root.text_attribute(".", "scene_sha256");
+  const Group bodies = root.open_group("bodies"), numbers = root.open_group("numbers"),
+              texts = root.open_group("texts");
+  const std::size_t count = bodies.names().size();
+  for (std::size_t index = 0; index < count; ++index)
+    checkpoint.bodies.push_back(read_body(bodies.open_group(step_name(index))));
+  for (const std::string& name : numbers.names()) checkpoint.numbers[name] = numbers.read_doubles(name);
+  for (const std::string& name : texts.names()) checkpoint.texts[name] = texts.read_text(name);
+  return checkpoint;
+}
+
+void restore_bodies(const Checkpoint& checkpoint, std::span<Body> bodies) {
+  if (checkpoint.bodies.size() != bodies.size())
+    differ("bodies", std::to_string(checkpoint.bodies.size()), std::to_string(bodies.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyCheckpoint& stored = checkpoint.bodies[b];
+    Body& body = bodies[b];
+    if (stored.name != body.name) differ(fmt::format("body {}", b), stored.name, body.name);
+    if (stored.particles.size != body.particles.size)
+      differ(fmt::format("particles of body '{}'", body.name), std::to_string(stored.particles.size),
+             std::to_string(body.particles.size));
+    if (variable_list(stored.particles) != variable_list(body.particles))
+      differ(fmt::format("variables of body '{}'", body.name), variable_list(stored.particles),
+             variable_list(body.particles));
+    body.particles.identity = stored.particles.identity;
+    const auto copy = [](const auto& from, const auto& to) {
+      for (std::size_t c = 0; c < from.size(); ++c) *to[c].second = *from[c].second;
+    };
+    copy(stored_columns(stored.particles), stored_columns(body.particles));
+    copy(variable_columns(stored.particles), variable_columns(body.particles));
+  }
+}
+
+}  // namespace vitrum::output

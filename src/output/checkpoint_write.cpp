@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "output/atomic_file.hpp"
+#include "output/checkpoint.hpp"
+#include "output/checkpoint_columns.hpp"
+#include "output/checkpoint_header.hpp"
+#include "output/hdf5.hpp"
+#include "output/result_file.hpp"
+#include "output/sha256.hpp"
+
+namespace vitrum::output {
+namespace {
+
+void require_name(const std::string& name) {
+  if (name.empty() || name == "." || name.find('/') != std::string::npos)
+    throw std::invalid_argument(fmt::format("'{}' cannot name an entry of a checkpoint", name));
+}
+
+void write_body(const Group& group, const BodyCheckpoint& body) {
+  group.set_attribute(".", "name", body.name);
+  group.write("identity", body.particles.identity);
+  for (const auto& [name, column] : stored_columns(body.particles)) group.write(name, *column);
+  const Group variables = group.create_group("variables");
+  for (const auto& [name, column] : variable_columns(body.particles))
+    if (!column->empty()) variables.write(name, *column);
+}
+
+std::uint64_t space_for(const Checkpoint& checkpoint) {
+  std::size_t objects = 8 + checkpoint.numbers.size() + checkpoint.texts.size();
+  std::uint64_t bytes = 0;
+  for (const BodyCheckpoint& body : checkpoint.bodies) {
+    const std::size_t columns =
+        stored_columns(body.particles).size() + variable_columns(body.particles).size() + 1;
+    objects += columns + 2;
+    bytes += columns * body.particles.size * sizeof(double);
+  }
+  for (const auto& [name, values] : checkpoint.numbers) bytes += name.size() + values.size() * sizeof(double);
+  for (const auto& [name, text] : checkpoint.texts) bytes += name.size() + text.size();
+  return output::space_for(objects, bytes);
+}
+
+void write_content(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  File file = File::create(path, space_for(checkpoint), checkpoint_header_size);
+  const Group& root = file.root();
+  root.set_attribute(".", "time", checkpoint.time);
+  root.set_attribute(".", "step_index", checkpoint.step_index);
+  root.set_attribute(".", "scene_sha256", checkpoint.scene_sha256);
+  const Group bodies = root.create_group("bodies");
+  for (std::size_t index = 0; index < checkpoint.bodies.size(); ++index)
+    write_body(bodies.create_group(step_name(index)), checkpoint.bodies[index]);
+  const Group numbers = root.create_group("numbers"), texts = root.create_group("texts");
+  for (const auto& [name, values] : checkpoint.numbers) require_name(name), numbers.write(name, values);
+  for (const auto& [name, text] : checkpoint.texts) require_name(name), texts.write_text(name, text);
+  file.close();
+}
+
+/// HDF5 leaves the first bytes of the file to its user: they take the header line.
+void write_header_line(const std::filesystem::path& path) {
+  const std::string line = checkpoint_header(sha256_of_file(path, checkpoint_header_size));
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.write(line.data(), static_cast<std::streamsize>(line.size()));
+  file.close();
+  if (!file) throw FileError(fmt::format("{}: cannot write the header", path.string()));
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  const std::filesystem::path next = next_of(path);
+  write_content(next, checkpoint);
+  write_header_line(next);
+  replace_with(next, path);
+}
+
+std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies) {
+  std::vector<BodyCheckpoint> stored;
+  for (const Body& body : bodies) {
+    BodyCheckpoint entry{body.name, {}};
+    entry.particles.size = body.particles.size;
+    entry.particles.identity = body.particles.identity;
+    const auto copy = [](const auto& from, const auto& to) {
+      for (std::size_t c = 0; c < from.size(); ++c) *to[c].second = *from[c].second;
+    };
+    copy(stored_columns(body.particles), stored_columns(entry.particles));
+    copy(variable_columns(body.particles), variable_columns(entry.particles));
+    stored.push_back(std::move(entry));
+  }
+  return stored;
+}
+
+}  // namespace vitrum::output

@@ -1,0 +1,141 @@
+#pragma once
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/input_error.hpp"
+
+namespace vitrum::output {
+
+/// An HDF5 call failed. The message names the file, the object, what was attempted and HDF5's innermost
+/// reason.
+class Hdf5Error : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// Owns one HDF5 identifier.
+class Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+
+  Handle() = default;
+  Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_), std::swap(closer_, other.closer_);
+    return *this;
+  }
+  ~Handle() { (void)release(); }
+
+  hid_t id() const { return id_; }
+  /// Closes now; false when HDF5 reports a failure.
+  bool release() { return id_ < 0 || closer_(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+/// Shape of a stored array: rows x columns; one-dimensional data has one column.
+struct Extent {
+  std::size_t rows = 0, columns = 1;
+  std::size_t size() const { return rows * columns; }
+};
+
+/// A group of an open file (the file must outlive it). Names are relative to the group. Every function throws
+/// Hdf5Error. Text is stored as variable-length UTF-8.
+class Group {
+ public:
+  /// `label`: "FILE: /object", for messages.
+  Group(Handle handle, std::string label) : handle_(std::move(handle)), label_(std::move(label)) {}
+
+  Group create_group(const std::string& name) const;
+  Group open_group(const std::string& name) const;
+  bool has(const std::string& name) const;
+  /// Names of the members, sorted.
+  std::vector<std::string> names() const;
+
+  /// New array, row-major; columns == 1 gives a one-dimensional array. values.size() must be a multiple of
+  /// columns.
+  void write(const std::string& name, std::span<const double> values, std::size_t columns = 1) const;
+  void write(const std::string& name, std::span<const std::int64_t> values, std::size_t columns = 1) const;
+  void write(const std::string& name, std::span<const std::uint32_t> values, std::size_t columns = 1) const;
+  void write_text(const std::string& name, const std::string& text) const;
+  void write_texts(const std::string& name, std::span<const std::string> texts) const;
+
+  Extent extent(const std::string& name) const;
+  /// Refuses arrays that claim more elements than the file can hold.
+  std::vector<double> read_doubles(const std::string& name) const;
+  std::vector<std::int64_t> read_integers(const std::string& name) const;
+  std::vector<std::uint32_t> read_indices(const std::string& name) const;
+  std::string read_text(const std::string& name) const;
+  std::vector<std::string> read_texts(const std::string& name) const;
+
+  /// New extendible one-dimensional array without rows; rows that are never written read as NaN.
+  void create_series(const std::string& name) const;
+  /// Writes one row of such an array, extending it when necessary.
+  void write_row(const std::string& name, std::size_t row, double value) const;
+
+  /// Attributes of the member `object`; "." is the group itself.
+  void set_attribute(const std::string& object, const std::string& name, const std::string& text) const;
+  void set_attribute(const std::string& object, const std::string& name, double value) const;
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t value) const;
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+  /// Copies member `name` with all below it into `target`, under the same name.
+  void copy(const std::string& name, const Group& target) const;
+
+  const std::string& label() const { return label_; }
+
+ private:
+  std::string member(const std::string& name) const;
+
+  Handle handle_;
+  std::string label_;
+};
+
+/// An open HDF5 file. Files are created in the HDF5 1.8 format, whose metadata carry checksums.
+class File {
+ public:
+  /// Replaces an existing file. expected_bytes: what will be written, see open_to_write. user_block: bytes
+  /// left free at the start, 0 or a power of two >= 512.
+  static File create(const std::filesystem::path& path, std::uint64_t expected_bytes = 0,
+                     std::uint64_t user_block = 0);
+  static File open_to_read(const std::filesystem::path& path);
+  /// expected_bytes: an upper estimate of what will be added. That much disk space is reserved first, so that
+  /// a full disk is an error here; what is not used is given back by close().
+  static File open_to_write(const std::filesystem::path& path, std::uint64_t expected_bytes = 0);
+
+  const Group& root() const { return root_; }
+  /// Writes everything out and closes; the only way to learn that the disk is full. The file may not be used
+  /// afterwards.
+  void close();
+
+ private:
+  File(Handle handle, const std::filesystem::path& path);
+  static File open(const std::filesystem::path& path, unsigned flags, const std::string& action);
+
+  Handle handle_;
+  std::string path_;
+  Group root_;
+};
+
+/// Upper estimate of the file space of `objects` datasets or groups, with attributes, that hold `bytes` of
+/// data.
+constexpr std::uint64_t space_for(std::size_t objects, std::uint64_t bytes) {
+  return (std::uint64_t{64} << 10) + (std::uint64_t{4} << 10) * objects + bytes + bytes / 64;
+}
+
+/// Version of the HDF5 library in use, "1.10.8".
+std::string hdf5_version();
+
+}  // namespace vitrum::output

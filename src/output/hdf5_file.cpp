@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include "output/atomic_file.hpp"
+#include "output/hdf5_internal.hpp"
+
+namespace vitrum::output {
+namespace {
+
+herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
+  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+/// HDF5 prints its error stack by default; here it goes into exceptions. The setting belongs to the calling
+/// thread.
+void silence() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Handle access_properties(const std::string& path) {
+  Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "set file access");
+  checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
+  checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18), path, "set file format");
+  // Lock where the file system can, do without where it cannot.
+  checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
+  return access;
+}
+
+}  // namespace
+
+void throw_hdf5_error(const std::string& where, const std::string& action) {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
+  H5Eclear2(H5E_DEFAULT);
+  throw Hdf5Error(
+      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason));
+}
+
+Handle text_type(const std::string& where) {
+  Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, where, "describe text");
+  checked(H5Tset_size(type.id(), H5T_VARIABLE), where, "describe text");
+  checked(H5Tset_cset(type.id(), H5T_CSET_UTF8), where, "describe text");
+  return type;
+}
+
+File::File(Handle handle, const std::filesystem::path& path)
+    : handle_(std::move(handle)),
+      path_(path.string()),
+      root_(own(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), H5Gclose, path_, "open the root group"),
+            path_ + ": /") {}
+
+File File::create(const std::filesystem::path& path, std::uint64_t expected_bytes, std::uint64_t user_block) {
+  silence();
+  const std::string name = path.string();
+  const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
+  if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
+  own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access_properties(name).id()), H5Fclose, name,
+      "create the file");
+  return open_to_write(path, expected_bytes);
+}
+
+File File::open_to_read(const std::filesystem::path& path) {
+  return open(path, H5F_ACC_RDONLY, "open the file as HDF5");
+}
+
+File File::open_to_write(const std::filesystem::path& path, std::uint64_t expected_bytes) {
+  if (expected_bytes > 0) reserve_space(path, std::filesystem::file_size(path) + expected_bytes);
+  return open(path, H5F_ACC_RDWR, "open the file as HDF5 for writing");
+}
+
+File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
+  silence();
+  const std::string name = path.string();
+  return File(own(H5Fopen(name.c_str(), flags, access_properties(name).id()), H5Fclose, name, action), path);
+}
+
+void File::close() {
+  root_ = Group(Handle(), path_ + ": /");
+  checked(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), path_, "write the file");
+  if (!handle_.release()) throw_hdf5_error(path_, "close the file");
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+}  // namespace vitrum::output

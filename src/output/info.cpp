@@ -1,0 +1,119 @@
+#include "output/info.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "output/result_reader.hpp"
+
+namespace vitrum::output {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json bodies_of(const ResultReader& result) {
+  Json bodies = Json::object();
+  const std::vector<std::string> names = result.bodies();
+  std::vector<std::size_t> particles(names.size(), 0);
+  for (const std::uint32_t body : result.body_of_particle()) ++particles[body];
+  for (std::size_t b = 0; b < names.size(); ++b) bodies[names[b]] = particles[b];
+  return bodies;
+}
+
+/// Fields of the last output.
+Json fields_of(const ResultReader& result) {
+  Json fields = Json::object();
+  if (result.steps().empty()) return fields;
+  const std::size_t last = result.steps().size() - 1;
+  for (const StoredField& stored : result.steps()[last].fields) {
+    const Field field = result.describe_field(last, stored.name);
+    fields[field.name] = {
+        {"unit", field.unit}, {"components", field.components}, {"description", field.description}};
+  }
+  return fields;
+}
+
+Json series_of(const ResultReader& result) {
+  Json series = Json::object();
+  for (const StoredSeries& entry : result.series())
+    series[entry.name] = {{"unit", entry.unit},
+                          {"last", entry.values.empty() ? Json(nullptr) : number(entry.values.back())},
+                          {"description", entry.description}};
+  return series;
+}
+
+/// Status and message of the summary beside the result; null where there is none (the run was killed or is
+/// under way).
+Json summary_of(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / "summary.json";
+  std::ifstream file(path);
+  if (!file) return nullptr;
+  const Json summary = Json::parse(file, nullptr, false);
+  if (!summary.is_object() || !summary.contains("status"))
+    throw FileError(fmt::format("{}: is not a summary of a run", path.string()));
+  return {{"status", summary["status"]}, {"message", summary.value("message", Json(nullptr))}};
+}
+
+Json describe(const ResultReader& result) {
+  Json provenance = Json::object(), steps = Json::array();
+  const Provenance stored = result.provenance();
+  for (const ProvenanceEntry& entry : provenance_entries)
+    provenance[std::string(entry.name)] = stored.*entry.member;
+  for (std::size_t s = 0; s < result.steps().size(); ++s)
+    steps.push_back({{"name", result.steps()[s].name},
+                     {"time", number(result.steps()[s].time)},
+                     {"step_index", result.step_index(s)}});
+  return {{"file", result.path().string()}, {"title", result.title()}, {"provenance", provenance},
+          {"bodies", bodies_of(result)},    {"outputs", steps},        {"fields", fields_of(result)},
+          {"series", series_of(result)}};
+}
+
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string readable(const Json& info) {
+  std::string text = fmt::format("title      {}\nfile       {}\n", plain(info["title"]), plain(info["file"]));
+  if (info.contains("summary")) {
+    const Json& summary = info["summary"];
+    text += fmt::format("status     {}\n", summary.is_null() ? "no summary.json: killed, or under way"
+                                                             : plain(summary["status"]));
+    if (summary.is_object() && !summary["message"].is_null())
+      text += fmt::format("message    {}\n", plain(summary["message"]));
+  }
+  for (const auto& [key, value] : info["provenance"].items())
+    text += fmt::format("{:<10} {}\n", key, plain(value));
+  text += "bodies\n";
+  for (const auto& [name, particles] : info["bodies"].items())
+    text += fmt::format("  {:<20} {} particles\n", name, plain(particles));
+  text += fmt::format("outputs ({})\n", info["outputs"].size());
+  for (const Json& step : info["outputs"])
+    text += fmt::format("  {}  t = {} s, step {}\n", plain(step["name"]), plain(step["time"]),
+                        plain(step["step_index"]));
+  text += "fields (last output)\n";
+  for (const auto& [name, field] : info["fields"].items())
+    text += fmt::format("  {:<20} {:<8} {}\n", name, plain(field["unit"]), plain(field["description"]));
+  text += "series (last value)\n";
+  for (const auto& [name, entry] : info["series"].items())
+    text += fmt::format("  {:<24} {:>24} {:<8} {}\n", name, plain(entry["last"]), plain(entry["unit"]),
+                        plain(entry["description"]));
+  return text;
+}
+
+}  // namespace
+
+std::string describe_result(const std::filesystem::path& path, bool json) {
+  const ResultReader result(path);
+  Json info = describe(result);
+  if (std::filesystem::is_directory(path)) info["summary"] = summary_of(path);
+  constexpr auto replace = Json::error_handler_t::replace;
+  return json ? info.dump(2, ' ', false, replace) + '\n' : readable(info);
+}
+
+}  // namespace vitrum::output

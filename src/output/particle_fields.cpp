@@ -1,0 +1,184 @@
+#include "output/particle_fields.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "scene/input_error.hpp"
+
+namespace vitrum::output {
+namespace {
+
+constexpr double not_modelled = std::numeric_limits<double>::quiet_NaN();
+
+/// Storage indices of a body's particles by rising identity.
+std::vector<std::size_t> identity_order(const Particles& particles) {
+  std::vector<std::size_t> order(particles.size);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (particles.identity.empty()) return order;
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return particles.identity[a] < particles.identity[b]; });
+  return order;
+}
+
+PointState point_of(const Particles& particles, std::size_t index) {
+  PointState state;
+  const auto tensor = [index](const std::array<std::vector<double>, 4>& c) {
+    return SymmetricTensor{c[0][index], c[1][index], c[2][index], c[3][index]};
+  };
+  state.elastic_strain = tensor(particles.elastic_strain);
+  state.stress = tensor(particles.stress);
+  for (std::size_t v = 0; v < variable_count; ++v)
+    if (!particles.variables[v].empty()) state.*variable_members[v] = particles.variables[v][index];
+  return state;
+}
+
+/// Appends `count` rows whose components are read from columns of every body.
+template <std::size_t components, class Columns>
+Field gather(std::span<const Body> bodies, const Columns& columns_of) {
+  Field field;
+  field.components = components;
+  for (const Body& body : bodies) {
+    const std::array<std::vector<double>, components>& columns = columns_of(body.particles);
+    for (const std::size_t index : identity_order(body.particles))
+      for (const std::vector<double>& column : columns) field.values.push_back(column[index]);
+  }
+  return field;
+}
+
+/// One value a particle; not_modelled for bodies that `has` denies.
+template <class Has, class Value>
+Field gather_scalar(std::span<const Body> bodies, const Has& has, const Value& value) {
+  Field field;
+  for (const Body& body : bodies) {
+    const bool present = has(body);
+    for (const std::size_t index : identity_order(body.particles))
+      field.values.push_back(present ? value(body, index) : not_modelled);
+  }
+  return field;
+}
+
+Field named(Field field, std::string name, std::string unit, std::string description) {
+  field.name = std::move(name), field.unit = std::move(unit), field.description = std::move(description);
+  return field;
+}
+
+bool has_damage(const Material& material) {
+  return material.parameters().damage.has_value();
+}
+
+bool has_variable(const Material& material, Variable variable) {
+  const auto variables = material.variables();
+  return std::any_of(variables.begin(), variables.end(),
+                     [variable](const VariableInfo& info) { return info.variable == variable; });
+}
+
+Field variable_field(std::span<const Body> bodies, const VariableInfo& info) {
+  const auto slot = static_cast<std::size_t>(info.variable);
+  return named(
+      gather_scalar(
+          bodies, [slot](const Body& body) { return !body.particles.variables[slot].empty(); },
+          [slot](const Body& body, std::size_t index) { return body.particles.variables[slot][index]; }),
+      std::string(info.name), std::string(info.unit), std::string(info.description) + "; NaN: not modelled");
+}
+
+Field field_of(std::span<const Body> bodies, const std::string& name, Geometry geometry) {
+  const bool axisymmetric = geometry == Geometry::axisymmetric;
+  const std::string vector = axisymmetric ? "(r, z)" : "(x, y)";
+  const std::string tensor = axisymmetric ? "(rr, zz, tt, rz)" : "(xx, yy, zz, xy)";
+  if (name == "position")
+    return named(gather<2>(
+                     bodies, [](const Particles& p) -> auto& { return p.position; }),
+                 name, "m", "position " + vector);
+  if (name == "velocity")
+    return named(gather<2>(
+                     bodies, [](const Particles& p) -> auto& { return p.velocity; }),
+                 name, "m/s", "velocity " + vector);
+  if (name == "stress")
+    return named(gather<4>(
+                     bodies, [](const Particles& p) -> auto& { return p.stress; }),
+                 name, "Pa", "Cauchy stress " + tensor + ", tension positive");
+  if (name == "elastic_strain")
+    return named(gather<4>(
+                     bodies, [](const Particles& p) -> auto& { return p.elastic_strain; }),
+                 name, "1", "elastic strain " + tensor + ", tensor shear");
+  if (name == "damage")
+    return named(gather_scalar(
+                     bodies, [](const Body& body) { return has_damage(*body.material); },
+                     [](const Body& body, std::size_t index) {
+                       return body.material->damage(point_of(body.particles, index));
+                     }),
+                 name, "1", "damage D = 1 - K_bar/K, eq. 8; NaN: not modelled");
+  for (const VariableInfo& info : all_variables())
+    if (info.name == name) return variable_field(bodies, info);
+  throw std::invalid_argument(fmt::format("no field is called '{}'", name));
+}
+
+}  // namespace
+
+std::vector<std::string> known_fields(std::span<const Material* const> materials) {
+  std::vector<std::string> names = {"position", "velocity", "stress"};
+  if (std::any_of(materials.begin(), materials.end(), [](const Material* m) { return has_damage(*m); }))
+    names.emplace_back("damage");
+  for (const VariableInfo& info : all_variables())
+    if (std::any_of(materials.begin(), materials.end(),
+                    [&info](const Material* m) { return has_variable(*m, info.variable); }))
+      names.emplace_back(info.name);
+  names.emplace_back("elastic_strain");
+  return names;
+}
+
+std::vector<std::string> select_fields(const std::optional<std::vector<std::string>>& requested,
+                                       std::span<const Material* const> materials) {
+  std::vector<std::string> known = known_fields(materials);
+  if (!requested) {
+    std::erase(known, "elastic_strain");
+    return known;
+  }
+  std::vector<std::string> faults, selected = {"position"};
+  for (const std::string& name : *requested) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      faults.push_back(fmt::format(
+          "key 'output.fields': found \"{}\", expected fields that this scene's materials have: {}", name,
+          fmt::join(known, ", ")));
+    else if (std::find(selected.begin(), selected.end(), name) == selected.end())
+      selected.push_back(name);
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return selected;
+}
+
+std::vector<const Material*> materials_of(std::span<const Body> bodies) {
+  std::vector<const Material*> materials;
+  for (const Body& body : bodies) materials.push_back(body.material.get());
+  return materials;
+}
+
+std::vector<Field> particle_fields(std::span<const Body> bodies, std::span<const std::string> names,
+                                   Geometry geometry) {
+  std::vector<Field> fields;
+  for (const std::string& name : names) fields.push_back(field_of(bodies, name, geometry));
+  return fields;
+}
+
+ParticleConstants particle_constants(std::span<const Body> bodies, Geometry geometry) {
+  ParticleConstants constants;
+  const double factor = geometry == Geometry::axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  constants.mass_unit = geometry == Geometry::axisymmetric ? "kg" : "kg/m";
+  for (const Body& body : bodies) {
+    const auto index = static_cast<std::uint32_t>(constants.bodies.size());
+    constants.bodies.push_back(body.name);
+    for (const std::size_t particle : identity_order(body.particles)) {
+      constants.body.push_back(index);
+      constants.mass.push_back(factor * body.particles.mass[particle]);
+    }
+  }
+  return constants;
+}
+
+}  // namespace vitrum::output

@@ -1,0 +1,118 @@
+#include "output/reference_page.hpp"
+
+#include <fmt/format.h>
+
+#include "materials/description.hpp"
+
+namespace vitrum::output {
+namespace {
+
+constexpr std::string_view before_variables = R"(# What a run leaves behind
+
+A run writes into its output directory:
+
+| file | what it holds | when it is written |
+|---|---|---|
+| `summary.json` | the run in numbers | at the end, whatever the end was |
+| `result.h5` | particles and series at every output | at every output |
+| `result.xdmf` | opens `result.h5` in ParaView (any of its three XDMF readers) and VisIt | at every output |
+| `energy.csv` | the energy account | row by row |
+| `checkpoint.h5` | everything a resumed run needs | on a signal, and as `output.checkpoint_every` asks |
+
+All numbers are SI. Axisymmetric quantities are those of the whole body (not per radian), plane-strain ones are per metre.
+
+## What a kill cannot break
+
+- `result.h5`, `result.xdmf`, `summary.json` and `checkpoint.h5` are never written in place. The next version is written to a hidden
+  file (`.NAME.next`), forced to disk and put in place by renaming: at any moment, also after `kill -9` or a power cut, each
+  of them is complete, either in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
+- `result.h5` therefore always holds the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
+  read while the run goes on; a program that has it open keeps the version that it opened.
+- A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
+- A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
+- `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them.
+
+## `result.h5`
+
+HDF5 in the 1.8 file format, without compression.
+
+| object | type | meaning |
+|---|---|---|
+| `/` | attributes `format` (`vitrum result 1`), `title` | |
+| `/scene/verbatim`, `/scene/resolved` | text | the scene file unchanged; the scene with `--set` applied and every default filled in |
+| `/provenance` | attributes `version`, `git`, `command`, `sundials`, `compiler`, `host`, `started`, `scene_sha256` | how the result was made; the digest is of the resolved scene |
+| `/bodies` | text, one per body | names |
+| `/particles/body` | uint32, N | index into `/bodies` |
+| `/particles/mass` | double, N | mass, kg or kg/m |
+| `/particles/index` | uint32, N | 0 .. N-1, the list of points for visualisation |
+| `/steps/NNNNN` | attributes `time` (s), `step_index` | one group per output, from `00000` |
+| `/steps/NNNNN/particles/FIELD` | double, N or N x components | see below; absent with `--no-fields` |
+| `/series/NAME` | double, one row per output | `time`, `step_index`, energies, counts, fronts, ...; NaN where the run gave no value |
+
+Every dataset below `/particles`, `/steps` and `/series` has the attributes `unit` and `description`. Row i is the same particle in every
+dataset of a file: body after body, and within a body in the order in which the particles were made.
+
+### Fields
+
+`output.fields` chooses among them; `position` is always written. Without the key all that the scene's materials have are
+written, except `elastic_strain`. A variable is NaN for particles whose material does not have it.
+
+| field | components | unit | meaning |
+|---|---|---|---|
+| `position` | 2 | m | (r, z) or (x, y) |
+| `velocity` | 2 | m/s | (r, z) or (x, y) |
+| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive |
+| `damage` | 1 | 1 | D = 1 - K_bar/K, eq. 8 |
+)";
+
+constexpr std::string_view after_variables =
+    R"(| `elastic_strain` | 4 | 1 | components as `stress`, tensor shear; only when asked for |
+
+    import h5py
+    with h5py.File("out/result.h5") as result:
+        for step in result["steps"].values():
+            print(step.attrs["time"], step["particles/damage"][:].max())
+
+## `energy.csv`
+
+Header `time,step,kinetic,elastic,plastic,damage,fracture,external,residual`; s and J; `plastic`, `damage` and `fracture` are dissipated
+so far, `external` is the work done so far, `residual` = initial + external - all the others. Numbers round-trip.
+
+## `summary.json`
+
+`null` stands for what did not happen, for models that are absent and for numbers that are not finite.
+
+| key | meaning |
+|---|---|
+| `status`, `message` | `complete`, `failed` or `interrupted`; why |
+| `time`, `particles`, `wall_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop; threads used |
+| `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `step_min`, `step_max` (s), `limited_by` {`stability`, `accuracy`, `output`} (steps) |
+| `constitutive` | `method`, `evaluations`, `cvode_solves`, `cvode_steps`, `cvode_rhs`, `failures`, `events` |
+| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
+| `failure.first_damage`, `.first_localisation`, `.first_separation` | {`time`, `r`, `z`, `body`} |
+| `failure.localised`, `.separated` | particles at the end |
+| `failure.damage_threshold` | the damage D that `first_damage` waits for |
+| `failure.localised_radius_max`, `.damage_front_radius` | m; largest r of a localised particle, of a particle with D > 0.1 |
+| `failure.max_opening`, `.max_opening_radius` | m |
+| `failure.perforated` | whether the projectile has passed |
+| `failure.fragments` | `count`, `largest_mass`, `total_mass`, `list` of the 100 largest {`body`, `particles`, `mass`, `centre`, `velocity`} |
+| `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, `localised`, `separated` |
+| `provenance` | as in `result.h5` |
+
+## `checkpoint.h5`
+
+The first 512 bytes hold the line `vitrum checkpoint 1 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
+`step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/numbers` and `/texts` with
+the state of everything else. It is made for `--resume` of the same version, not for analysis.
+)";
+
+}  // namespace
+
+std::string result_reference() {
+  std::string text(before_variables);
+  for (const VariableInfo& variable : all_variables())
+    text += fmt::format("| `{}` | 1 | {} | {} |\n", variable.name, variable.unit, variable.description);
+  return text += after_variables;
+}
+
+}  // namespace vitrum::output

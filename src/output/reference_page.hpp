@@ -1,0 +1,9 @@
+#pragma once
+#include <string>
+
+namespace vitrum::output {
+
+/// The Markdown page docs/result-format.md. Its table of state variables comes from all_variables().
+std::string result_reference();
+
+}  // namespace vitrum::output

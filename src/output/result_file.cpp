@@ -1,0 +1,141 @@
+#include "output/result_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "output/atomic_file.hpp"
+#include "output/result_layout.hpp"
+
+namespace vitrum::output {
+namespace {
+
+void require_consistent(const OutputFrame& frame, std::size_t particles) {
+  for (const Field& field : frame.fields) {
+    if (field.components == 0 || field.values.size() != particles * field.components)
+      throw std::invalid_argument(
+          fmt::format("field '{}' has {} values, expected {} particles x {} components", field.name,
+                      field.values.size(), particles, field.components));
+  }
+}
+
+StoredStep stored(std::size_t index, const OutputFrame& frame) {
+  StoredStep step{step_name(index), frame.time, {}};
+  for (const Field& field : frame.fields) step.fields.push_back({field.name, field.components});
+  std::sort(step.fields.begin(), step.fields.end(),
+            [](const StoredField& a, const StoredField& b) { return a.name < b.name; });
+  return step;
+}
+
+}  // namespace
+
+ResultFile::ResultFile(const std::filesystem::path& directory, Publishing publishing)
+    : path_(result_path(directory)), shadow_(next_of(path_)), publishing_(publishing) {
+  std::error_code missing;
+  std::filesystem::remove(shadow_, missing);  // an earlier run that was killed leaves one
+}
+
+ResultFile::~ResultFile() {
+  if (shadow_.empty()) return;  // moved from
+  std::error_code missing;
+  std::filesystem::remove(shadow_, missing);
+}
+
+ResultFile ResultFile::create(const std::filesystem::path& directory, const RunHeader& header,
+                              Publishing publishing) {
+  ResultFile result(directory, publishing);
+  File file = File::create(result.shadow_, space_for(header));
+  write_header(file.root(), header);
+  file.close();
+  replace_with(result.shadow_, result.path_);
+  result.particles_ = header.particles.body.size();
+  return result;
+}
+
+ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_t outputs,
+                              Publishing publishing) {
+  ResultFile result(directory, publishing);
+  File old = File::open_to_read(result.path_);
+  require_result(old.root());
+  result.steps_ = read_steps(old.root());
+  result.particles_ = old.root().extent("particles/body").rows;
+  if (result.steps_.size() < outputs)
+    throw FileError(
+        fmt::format("{}: holds {} outputs, fewer than the {} that were written before the checkpoint",
+                    result.path_.string(), result.steps_.size(), outputs));
+  if (result.steps_.size() == outputs) return result;
+  File shortened = File::create(result.shadow_, space_for(0, std::filesystem::file_size(result.path_)));
+  copy_constants(old.root(), shortened.root());
+  copy_steps(old.root(), shortened.root(), 0, outputs);
+  shortened.close();
+  old.close();
+  replace_with(result.shadow_, result.path_);
+  result.steps_.resize(outputs);
+  return result;
+}
+
+File ResultFile::open_shadow(std::uint64_t frame_bytes) const {
+  if (std::filesystem::exists(shadow_)) {
+    try {
+      // The steps that the shadow lacks take no more than result.h5 is longer by.
+      const std::uint64_t length = std::filesystem::file_size(path_),
+                          own_length = std::filesystem::file_size(shadow_);
+      return File::open_to_write(shadow_, frame_bytes + (length > own_length ? length - own_length : 0));
+    } catch (const Hdf5Error&) {
+      // Another program still reads the file that was result.h5 one output ago: leave it to that program.
+      std::filesystem::remove(shadow_);
+    }
+  }
+  std::error_code failure;
+  std::filesystem::copy_file(path_, shadow_, failure);
+  if (failure)
+    throw FileError(
+        fmt::format("{}: cannot copy to {}: {}", path_.string(), shadow_.string(), failure.message()));
+  // The copy of a write-protected result must be writable.
+  std::filesystem::permissions(shadow_, std::filesystem::perms::owner_write,
+                               std::filesystem::perm_options::add, failure);
+  return File::open_to_write(shadow_, frame_bytes);
+}
+
+void ResultFile::append(const OutputFrame& frame) {
+  require_consistent(frame, particles_);
+  try {
+    File shadow = open_shadow(space_for(frame));
+    const std::size_t present = count_steps(shadow.root());
+    if (present < steps_.size()) {
+      const File current = File::open_to_read(path_);
+      copy_steps(current.root(), shadow.root(), present, steps_.size());
+    }
+    write_step(shadow.root(), steps_.size(), frame);
+    write_series(shadow.root(), steps_.size(), frame);
+    shadow.close();
+    publish();
+  } catch (const FileError&) {
+    std::error_code missing;
+    std::filesystem::remove(shadow_, missing);  // half written; the next attempt begins with a copy
+    throw;
+  }
+  steps_.push_back(stored(steps_.size(), frame));
+}
+
+void ResultFile::publish() {
+  if (publishing_ == Publishing::exchange && exchange_with(shadow_, path_)) return;
+  publishing_ = Publishing::replace;
+  replace_with(shadow_, path_);
+}
+
+void ResultFile::close() {
+  std::error_code missing;
+  std::filesystem::remove(shadow_, missing);
+}
+
+std::string step_name(std::size_t index) {
+  return fmt::format("{:05d}", index);
+}
+
+std::filesystem::path result_path(const std::filesystem::path& directory) {
+  return directory / "result.h5";
+}
+
+}  // namespace vitrum::output

@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "analysis/energy_totals.hpp"
+#include "analysis/failure_report.hpp"
+#include "integrators/grid/grid_integrator.hpp"
+#include "output/provenance.hpp"
+
+namespace vitrum::output {
+
+enum class RunStatus { complete, failed, interrupted };
+
+/// One body at the end of a run (axisymmetric: the whole body; plane strain: per metre).
+struct BodySummary {
+  std::string name;
+  std::size_t particles = 0;
+  double mass = 0.0;                         ///< kg
+  std::array<double, 2> momentum{};          ///< kg m/s, summed over particles
+  std::array<double, 2> centre{};            ///< m, of mass
+  double kinetic = 0.0;                      ///< J
+  std::size_t localised = 0, separated = 0;  ///< particles
+};
+
+/// What summary.json tells. Energies arrive as they are to be written (axisymmetric: joules of the whole
+/// body).
+struct RunSummary {
+  RunStatus status = RunStatus::complete;
+  std::string message;  ///< why not complete; empty: null in the file
+  double time = 0.0;    ///< s, reached
+  std::size_t particles = 0;
+  double wall_seconds = 0.0;  ///< of the time loop alone
+  int threads = 1;
+  std::string integrator_method, constitutive_method;  ///< by their scene names
+  IntegratorCounters integrator;
+  ConstitutiveCounters constitutive;
+  EnergyTotals energy;
+  FailureReport failure;
+  std::vector<BodySummary> bodies;
+  Provenance provenance;
+};
+
+/// Damage at which `first_damage` is recorded.
+inline constexpr double damage_threshold = 0.001;
+/// Fragments listed one by one; their number and masses count all of them.
+inline constexpr std::size_t listed_fragments = 100;
+
+/// The keys of docs/result-format.md in its order. What did not happen, and every number that is not finite,
+/// is null.
+nlohmann::ordered_json to_json(const RunSummary& summary);
+
+/// Writes the JSON atomically. Throws FileError.
+void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+}  // namespace vitrum::output

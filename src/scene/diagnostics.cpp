@@ -1,0 +1,65 @@
+#include "scene/diagnostics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "scene/input_error.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+bool is_at_or_below(std::string_view path, std::string_view ancestor) {
+  return path.starts_with(ancestor) && (path.size() == ancestor.size() || path[ancestor.size()] == '.');
+}
+
+std::string sentence(std::string_view key, std::string_view fact) {
+  return single_line(key.empty() ? std::string(fact) : fmt::format("key '{}': {}", key, fact));
+}
+
+}  // namespace
+
+void Diagnostics::note_override(const std::string& path, std::size_t number) {
+  std::erase_if(overrides_, [&](const auto& entry) { return is_at_or_below(entry.first, path); });
+  if (number != 0) overrides_[path] = number;
+}
+
+std::size_t Diagnostics::override_at(std::string_view path) const {
+  // The longest noted ancestor decides: it is the latest word on this path.
+  std::size_t number = 0, longest = 0;
+  for (const auto& [ancestor, candidate] : overrides_) {
+    if (ancestor.size() >= longest && is_at_or_below(path, ancestor)) {
+      number = candidate;
+      longest = ancestor.size();
+    }
+  }
+  return number;
+}
+
+void Diagnostics::add(const std::string& origin, const toml::source_position& where, std::string_view key,
+                      std::string_view fact) {
+  const std::size_t number = override_at(origin);
+  if (number != 0) return add_override(number, key, fact);
+  faults_.push_back(
+      {0, where, fmt::format("{}:{}:{}: {}", file_, where.line, where.column, sentence(key, fact))});
+}
+
+void Diagnostics::add_override(std::size_t number, std::string_view key, std::string_view fact) {
+  faults_.push_back({number, {}, fmt::format("--set {}: {}", number, sentence(key, fact))});
+}
+
+void Diagnostics::throw_if_any() const {
+  if (faults_.empty()) return;
+  std::vector<Fault> sorted = faults_;
+  std::ranges::stable_sort(sorted, {}, [](const Fault& fault) {
+    return std::tuple(fault.override_number, fault.where.line, fault.where.column);
+  });
+  std::vector<std::string> messages;
+  messages.reserve(sorted.size());
+  for (Fault& fault : sorted) messages.push_back(std::move(fault.text));
+  throw InputError(std::move(messages));
+}
+
+}  // namespace vitrum::scene

@@ -1,0 +1,49 @@
+#pragma once
+#include <toml++/toml.h>
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vitrum::scene {
+
+/// Collects the faults of one input, so that a user sees all of them at once, and knows where each value came
+/// from.
+///
+/// A message reads `FILE:LINE:COLUMN: key 'a.b': FACT`, or `--set N: key 'a.b': FACT` for values given on the
+/// command line (N counts the --set arguments from 1).
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+
+  /// From now on everything at and below `path` comes from --set number `number`; 0: forget what was noted
+  /// there.
+  void note_override(const std::string& path, std::size_t number);
+
+  /// Adds a fault of `key`. The position is that of the value or table at `origin`, `where` when it comes
+  /// from the file.
+  void add(const std::string& origin, const toml::source_position& where, std::string_view key,
+           std::string_view fact);
+  /// Adds a fault of --set number `number` itself; `key` may be empty.
+  void add_override(std::size_t number, std::string_view key, std::string_view fact);
+
+  /// Throws InputError with all faults in the order of the file, then of the command line; returns when there
+  /// are none.
+  void throw_if_any() const;
+
+ private:
+  struct Fault {
+    std::size_t override_number;
+    toml::source_position where;
+    std::string text;
+  };
+
+  std::size_t override_at(std::string_view path) const;
+
+  std::string file_;
+  std::map<std::string, std::size_t, std::less<>> overrides_;
+  std::vector<Fault> faults_;
+};
+
+}  // namespace vitrum::scene

@@ -1,0 +1,191 @@
+#include "scene/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/toml_reader.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+/// A fault of the argument: what was found and expected at `key`.
+struct Refusal {
+  std::string key, fact;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string joined(const std::vector<std::string>& keys, std::size_t count) {
+  std::string path;
+  for (std::size_t i = 0; i < count; ++i) path = join_path(path, keys[i]);
+  return path;
+}
+
+struct Assignment {
+  std::vector<std::string> keys;
+  std::string_view value;
+};
+
+/// Splits `a."b.c".0=VALUE` at the first '=' and the dots outside quotes; nothing when a part is missing.
+std::optional<Assignment> split(std::string_view text) {
+  Assignment result;
+  std::size_t begin = 0;
+  char quote = '\0';
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '.' || c == '=') {
+      std::string_view key = trimmed(text.substr(begin, i - begin));
+      const bool in_quotes =
+          key.size() >= 2 && key.front() == key.back() && (key.front() == '"' || key.front() == '\'');
+      if (key.empty()) return std::nullopt;
+      result.keys.emplace_back(in_quotes ? key.substr(1, key.size() - 2) : key);
+      begin = i + 1;
+      if (c == '=') {
+        result.value = trimmed(text.substr(begin));
+        return result;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool looks_like_text(std::string_view value) {
+  return !value.empty() && value.find_first_of("\"'[]{}=\n") == std::string_view::npos &&
+         value.find_first_not_of("+-.0123456789eE_") != std::string_view::npos;
+}
+
+/// The document `value = VALUE`, so that toml++ reads VALUE by its own rules.
+toml::table parse_value(const Assignment& assignment, const std::string& path) {
+  Refusal refusal{path, fmt::format("found {}, expected a TOML value",
+                                    assignment.value.empty() ? "nothing" : assignment.value)};
+  if (looks_like_text(assignment.value))
+    refusal.fact += fmt::format("; quote a string: --set '{}={}'", path, quoted(assignment.value));
+  try {
+    toml::table parsed = toml::parse(fmt::format("value = {}", assignment.value), std::string_view{});
+    if (parsed.size() == 1) return parsed;  // a line break in VALUE could smuggle in further keys
+  } catch (const toml::parse_error&) {
+    throw refusal;
+  }
+  throw refusal;
+}
+
+/// The item of `list` that `keys[depth]` names.
+std::size_t item_index(const toml::array& list, const std::vector<std::string>& keys, std::size_t depth) {
+  const std::string& key = keys[depth];
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (error == std::errc{} && end == key.data() + key.size() && index < list.size()) return index;
+  const std::string range =
+      list.empty() ? "the list is empty" : fmt::format("expected an index from 0 to {}", list.size() - 1);
+  throw Refusal{joined(keys, depth + 1),
+                fmt::format("found index {} of a list of length {}, {}", key, list.size(), range)};
+}
+
+bool is_index(const std::string& key) {
+  return std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+template <class Parent, class Where>
+void store(Parent& parent, const Where& where, toml::node& value) {
+  value.visit([&](auto& concrete) {
+    if constexpr (std::is_same_v<Parent, toml::table>)
+      parent.insert_or_assign(where, std::move(concrete));
+    else
+      parent.replace(parent.cbegin() + static_cast<std::ptrdiff_t>(where), std::move(concrete));
+  });
+}
+
+/// Where the walk along the keys ends: `depth` keys lead to `parent`, the last table or list that exists.
+struct Place {
+  toml::node* parent;
+  std::size_t depth;
+};
+
+/// Looks without touching, so that a refused argument leaves no half-made tables behind.
+Place find_place(toml::table& document, const std::vector<std::string>& keys) {
+  toml::node* node = &document;
+  for (std::size_t depth = 0;; ++depth) {
+    const bool at_last = depth + 1 == keys.size();
+    if (toml::array* list = node->as_array()) {
+      const std::size_t index = item_index(*list, keys, depth);
+      if (at_last) return {node, depth};
+      node = list->get(index);
+    } else if (toml::table* table = node->as_table()) {
+      toml::node* child = table->get(keys[depth]);
+      if (at_last) return {node, depth};
+      if (child == nullptr && is_index(keys[depth + 1])) {
+        const std::string path = joined(keys, depth + 1);
+        throw Refusal{
+            path,
+            fmt::format("found nothing to index, expected a list; give it whole: --set '{}=[..]'", path)};
+      }
+      if (child == nullptr) return {node, depth};
+      node = child;
+    } else {
+      throw Refusal{joined(keys, depth),
+                    fmt::format("found {}, expected a table or list that could hold '{}'", found_text(*node),
+                                keys[depth])};
+    }
+  }
+}
+
+/// Puts `value` at `keys` and returns the path of the topmost thing that is new.
+std::string assign(toml::table& document, const std::vector<std::string>& keys, toml::node& value) {
+  const Place place = find_place(document, keys);
+  if (toml::array* list = place.parent->as_array()) {
+    store(*list, item_index(*list, keys, place.depth), value);
+  } else {
+    toml::table* table = place.parent->as_table();
+    for (std::size_t depth = place.depth; depth + 1 < keys.size(); ++depth)
+      table = table->insert_or_assign(keys[depth], toml::table{}).first->second.as_table();
+    store(*table, keys.back(), value);
+  }
+  return joined(keys, place.depth + 1);
+}
+
+/// `step` and `courant` exclude each other, so setting one of them drops the other.
+void drop_alternative(toml::table& document, const std::string& path, Diagnostics& diagnostics) {
+  std::string_view dropped;
+  if (path == "integrator.step") dropped = "courant";
+  if (path == "integrator.courant") dropped = "step";
+  toml::table* integrator = document["integrator"].as_table();
+  if (dropped.empty() || integrator == nullptr) return;
+  integrator->erase(dropped);
+  diagnostics.note_override(join_path("integrator", dropped), 0);
+}
+
+}  // namespace
+
+void apply_override(toml::table& document, std::string_view text, std::size_t number,
+                    Diagnostics& diagnostics) {
+  const std::optional<Assignment> assignment = split(text);
+  if (!assignment) {
+    diagnostics.add_override(number, "",
+                             fmt::format("found {}, expected KEY=VALUE with a dotted KEY", quoted(text)));
+    return;
+  }
+  const std::string path = joined(assignment->keys, assignment->keys.size());
+  try {
+    toml::table parsed = parse_value(*assignment, path);
+    diagnostics.note_override(assign(document, assignment->keys, *parsed.get("value")), number);
+    drop_alternative(document, path, diagnostics);
+  } catch (const Refusal& refusal) {
+    diagnostics.add_override(number, refusal.key, refusal.fact);
+  }
+}
+
+}  // namespace vitrum::scene

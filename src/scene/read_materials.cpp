@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "scene/choices.hpp"
+#include "scene/scene_keys.hpp"
+#include "scene/sections.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+/// Reads the numbers of a describe() table; true when every one has a valid value.
+template <class Parameters>
+bool read_parameters(const TableReader& table, Parameters& parameters) {
+  bool complete = true;
+  for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
+    double& value = parameters.*info.member;
+    if (!table.has(info.name)) {
+      complete = complete && info.fallback.has_value();
+      value = info.fallback.value_or(0.0);
+    } else if (!table.read(info.name, value)) {
+      complete = false;
+    }
+  }
+  return complete;
+}
+
+/// G_bar of eqs. 5, 6 and 8 must fall with the crack density, else damage would stiffen the material in
+/// shear. Its slope at zero crack density changes sign where nu^3 + nu^2 + 2 nu = 1 (nu = 0.39265); below,
+/// down to nu = -1, G_bar and K_bar fall throughout.
+bool damage_admits(double poisson) {
+  return ((poisson + 1.0) * poisson + 2.0) * poisson < 1.0;
+}
+
+void read_rate(const TableReader& table, DamageParameters& damage) {
+  const toml::node* rate = table.toml().get("rate");
+  if (rate == nullptr) return;
+  std::size_t named = 0;
+  if (!rate->is_table())
+    table.read_choice("rate", named);
+  else if (const auto fixed = table.table("rate", keys::fixed_rate()))
+    fixed->read("fixed", damage.fixed_rate);
+}
+
+std::optional<DamageParameters> read_damage(const TableReader& material, const ElasticParameters& elastic) {
+  const auto table = material.table("damage", keys::damage());
+  if (!table) return std::nullopt;
+  DamageParameters damage;
+  read_parameters(*table, damage);
+  read_rate(*table, damage);
+  if (!damage_admits(elastic.poisson))
+    material.fail("poisson",
+                  "a number < 0.3926 in a material with damage (above, eqs. 5, 6 and 8 make the shear "
+                  "modulus rise with damage)");
+  return damage;
+}
+
+std::optional<DruckerPragerParameters> read_drucker_prager(const TableReader& material) {
+  const auto table = material.table("drucker_prager", keys::drucker_prager());
+  if (!table) return std::nullopt;
+  DruckerPragerParameters parameters;
+  read_parameters(*table, parameters);
+  table->read_choice("flow", parameters.associated);
+  return parameters;
+}
+
+std::optional<VonMisesParameters> read_von_mises(const TableReader& material) {
+  const auto table = material.table("von_mises", keys::von_mises());
+  if (!table) return std::nullopt;
+  VonMisesParameters parameters;
+  if (!read_parameters(*table, parameters)) return parameters;
+  if (parameters.peak < parameters.yield)
+    table->fail("peak",
+                fmt::format("at least '{}.yield' ({})", table->path(), number_text(parameters.yield)));
+  if (parameters.peak > parameters.yield && parameters.hardening == 0.0)
+    table->fail("hardening",
+                fmt::format("a number > 0 (Pa), since the peak ({}) above the yield strength ({}) is never "
+                            "reached without hardening",
+                            number_text(parameters.peak), number_text(parameters.yield)));
+  return parameters;
+}
+
+std::optional<DecohesionParameters> read_decohesion(const TableReader& material) {
+  const auto table = material.table("decohesion", keys::decohesion());
+  if (!table) return std::nullopt;
+  DecohesionParameters parameters;
+  read_parameters(*table, parameters);
+  table->read_choice("plane", parameters.search_all_planes);
+  return parameters;
+}
+
+MaterialParameters read_material(const TableReader& table, std::string name) {
+  MaterialParameters material;
+  material.name = std::move(name);
+  read_parameters(table, material.elastic);
+  material.damage = read_damage(table, material.elastic);
+  material.drucker_prager = read_drucker_prager(table);
+  material.von_mises = read_von_mises(table);
+  material.decohesion = read_decohesion(table);
+  if (table.has("drucker_prager") && table.has("von_mises"))
+    table.report("von_mises",
+                 "found together with 'drucker_prager', expected only one plasticity model in a material");
+  return material;
+}
+
+}  // namespace
+
+std::vector<MaterialParameters> read_materials(const TableReader& document) {
+  std::vector<MaterialParameters> materials;
+  const toml::node* node = document.toml().get("material");
+  if (node == nullptr) return materials;
+  const toml::table* list = node->as_table();
+  if (list == nullptr || list->empty()) {
+    document.fail("material", find_key(keys::scene(), "material").expected);
+    return materials;
+  }
+  // toml++ sorts keys by name; the file's order is in their positions, which what comes from --set does not
+  // have.
+  using Entry = std::pair<toml::source_position, std::string>;
+  std::vector<Entry> entries;
+  for (const auto& [key, unused] : *list) entries.emplace_back(key.source().begin, std::string(key.str()));
+  std::ranges::stable_sort(entries, {}, [](const Entry& entry) {
+    return std::tuple(entry.first.line == 0, entry.first.line, entry.first.column);
+  });
+  for (auto& [position, name] : entries) {
+    const std::string path = join_path("material", name);
+    const toml::node& entry = *list->get(name);
+    if (const toml::table* table = entry.as_table())
+      materials.push_back(read_material({*table, path, keys::material(), document.diagnostics()}, name));
+    else
+      document.diagnostics().add(
+          path, entry.source().begin, path,
+          fmt::format("found {}, expected a table [material.NAME]", found_text(entry)));
+  }
+  return materials;
+}
+
+}  // namespace vitrum::scene

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <span>
+#include <tuple>
+
+#include "scene/choices.hpp"
+#include "scene/scene_keys.hpp"
+#include "scene/sections.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+/// Of two keys that exclude each other, the one that the file gives later is reported.
+void exclude(const TableReader& table, std::string_view one, std::string_view other) {
+  if (!table.has(one) || !table.has(other)) return;
+  const auto a = table.position(one), b = table.position(other);
+  const bool one_is_later = std::tuple(a.line, a.column) > std::tuple(b.line, b.column);
+  const std::string_view later = one_is_later ? one : other, earlier = one_is_later ? other : one;
+  table.report(later, fmt::format("found together with '{}', expected only one of the two",
+                                  join_path(table.path(), earlier)));
+}
+
+/// The first `available` of `names` run; the others are names that scenes may hold for other versions.
+void require_available(const TableReader& table, std::span<const std::string_view> names, std::size_t method,
+                       std::size_t available) {
+  if (method < available) return;
+  const std::span<const std::string_view> first = names.first(available);
+  table.report("method", fmt::format("found {}, which is not available in this version; available: {}",
+                                     quoted(names[method]),
+                                     quoted_list(std::vector<std::string>(first.begin(), first.end()))));
+}
+
+}  // namespace
+
+void read_integrator(const TableReader& document, IntegratorDefinition& integrator) {
+  const auto table = document.table("integrator", keys::integrator());
+  if (!table) return;
+  if (table->read_choice("method", integrator.method))
+    require_available(*table, grid_method_names, static_cast<std::size_t>(integrator.method),
+                      available_grid_methods);
+  table->read_choice("scheme", integrator.scheme);
+  table->read("step", integrator.step);
+  table->read("courant", integrator.courant);
+  exclude(*table, "step", "courant");
+  if (!table->has("step") && !table->has("courant")) integrator.courant = keys::default_courant;
+  table->read("max_growth", integrator.max_growth);
+  table->read("order", integrator.order);
+  table->read("table", integrator.table);
+  exclude(*table, "order", "table");
+  table->read("rtol", integrator.rtol);
+  table->read("fixed_step", integrator.fixed_step);
+  table->read("initial_step", integrator.initial_step);
+  const bool shortest = table->read("min_step", integrator.min_step);
+  if (table->read("max_step", integrator.max_step) && shortest && *integrator.max_step < *integrator.min_step)
+    table->fail("max_step",
+                fmt::format("at least 'integrator.min_step' ({})", number_text(*integrator.min_step)));
+  std::size_t solver = 0;
+  if (table->read_choice("linear_solver", solver)) integrator.linear_solver = linear_solver_names[solver];
+  table->read("remap", integrator.remap);
+}
+
+void read_constitutive(const TableReader& document, ConstitutiveDefinition& constitutive) {
+  const auto table = document.table("constitutive", keys::constitutive());
+  if (!table) return;
+  if (table->read_choice("method", constitutive.method))
+    require_available(*table, local_method_names, static_cast<std::size_t>(constitutive.method),
+                      available_local_methods);
+  table->read("rtol", constitutive.rtol);
+  table->read("atol", constitutive.atol);
+  std::size_t solver = 0;
+  if (table->read_choice("solver", solver)) constitutive.solver = local_solver_names[solver];
+}
+
+}  // namespace vitrum::scene

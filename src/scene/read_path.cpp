@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "scene/scene_keys.hpp"
+#include "scene/sections.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+bool check_times(const TableReader& path, const std::vector<double>& time) {
+  if (time.size() < 2) {
+    path.fail("time", find_key(keys::path(), "time").expected);
+    return false;
+  }
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (time[i] > time[i - 1]) continue;
+    path.report("time", fmt::format("found {} after {} (item {}), expected increasing times",
+                                    number_text(time[i]), number_text(time[i - 1]), i));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void read_path(const TableReader& document, PointScene& point) {
+  const auto path = document.table("path", keys::path());
+  if (!path) return;
+  const bool has_time = path->read("time", point.time) && check_times(*path, point.time);
+  std::vector<std::vector<double>> rows;
+  if (path->read_rows("strain", 4, rows)) {
+    for (const std::vector<double>& row : rows) point.strain.push_back({row[0], row[1], row[2], row[3]});
+    if (has_time && point.strain.size() != point.time.size())
+      path->fail("strain", fmt::format("{} strains, one for each time", point.time.size()));
+  }
+  path->read("size", point.size);
+  path->read("samples", point.samples);
+}
+
+}  // namespace vitrum::scene

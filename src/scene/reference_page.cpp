@@ -1,0 +1,126 @@
+#include "scene/reference_page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "scene/scene_keys.hpp"
+
+namespace vitrum {
+namespace {
+
+using namespace scene;
+
+struct Section {
+  std::string_view heading;
+  std::string_view text;
+  KeyTable keys;
+};
+
+constexpr std::string_view introduction =
+    R"(# Scene reference
+
+A scene is a TOML file. Everything is SI (m, s, kg, Pa); tension is positive; angles are not used. Unknown keys, wrong types and
+values out of bounds are errors, all of a file at once, each with its line and column. Integers are taken where numbers are
+expected. A number is finite unless its row says that inf is admitted.
+
+Any key can be given on the command line, by its dotted path and as a TOML value, list items by index from 0:
+`--set time.end=1e-4`, `--set body.0.velocity.1=-800`, `--set 'integrator.scheme="musl"'`. Missing keys and tables are created,
+missing list items are not. The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant`
+and the other way round.
+
+This page is printed by the program from the tables that its reader uses; do not edit it.
+)";
+
+std::array<Section, 15> scene_sections() {
+  return {{
+      {"The file", "Tables of the document.", keys::scene()},
+      {"[space]", "Geometry and grid.", keys::space()},
+      {"[time]", "The time span.", keys::time()},
+      {"[integrator]",
+       "The grid momentum equations. Keys of a method that is not chosen are validated and ignored.",
+       keys::integrator()},
+      {"[constitutive]",
+       "The local equations. Keys of a method that is not chosen are validated and ignored.",
+       keys::constitutive()},
+      {"[output]", "What is written, and when.", keys::output()},
+      {"[[body]]", "One table for each body, with exactly one shape.", keys::body()},
+      {"Shape `box` of a body", "`min` is less than `max` in both components.", keys::box()},
+      {"Shape `disk` of a body", "In axisymmetric geometry a disk centred on the axis is a sphere.",
+       keys::disk()},
+      {"Shape `ring` of a body", "`inner` is less than `outer`.", keys::ring()},
+      {"[[boundary]]", "Grid nodes that are held or driven; the axis is handled by the geometry.",
+       keys::boundary(Geometry::axisymmetric)},
+      {"`box` of a boundary", "", keys::boundary_box()},
+      {"[gravity]", "", keys::gravity()},
+      {"[material.NAME]",
+       "Isotropic elasticity; each table in it switches a model on. A model that is absent is "
+       "neither stored nor run.",
+       keys::material()},
+      {"[material.NAME.damage]",
+       "With damage, Poisson's ratio must be below 0.3926 (the root of nu^3 + nu^2 + 2 nu = 1): above, eqs. "
+       "5, 6 and 8 "
+       "make the shear modulus rise with the crack density.",
+       keys::damage()},
+  }};
+}
+
+std::array<Section, 4> model_sections() {
+  return {{
+      {"`rate` of damage as a table", "", keys::fixed_rate()},
+      {"[material.NAME.drucker_prager]", "Excludes `von_mises`.", keys::drucker_prager()},
+      {"[material.NAME.von_mises]",
+       "`peak` is at least `yield`; equal: no hardening branch. `softening` = 0: perfectly plastic from the "
+       "peak on. A "
+       "peak above the yield strength needs `hardening` > 0.",
+       keys::von_mises()},
+      {"[material.NAME.decohesion]", "", keys::decohesion()},
+  }};
+}
+
+std::array<Section, 2> point_sections() {
+  return {{
+      {"Point file", "`vitrum point` drives one material point along a strain path.", keys::point()},
+      {"[path]", "", keys::path()},
+  }};
+}
+
+/// '|' would end a table cell and '<' begin an HTML tag.
+std::string cell_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|' || c == '<') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string key_row(const KeyInfo& key) {
+  const std::string fallback = key.required           ? "required"
+                               : key.fallback.empty() ? ""
+                                                      : '`' + key.fallback + '`';
+  return fmt::format("| `{}` | {} | {} | {} |\n", key.name, cell_text(key.expected), fallback,
+                     cell_text(key.meaning));
+}
+
+std::string section_text(const Section& section) {
+  const bool is_table = section.heading.front() == '[';
+  std::string text = fmt::format("\n## {0}{1}{0}\n\n", is_table ? "`" : "", section.heading);
+  if (!section.text.empty()) text += fmt::format("{}\n\n", section.text);
+  text += "| key | value | default | meaning |\n|---|---|---|---|\n";
+  for (const KeyInfo& key : section.keys) text += key_row(key);
+  return text;
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  std::string page(introduction);
+  for (const Section& section : scene_sections()) page += section_text(section);
+  for (const Section& section : model_sections()) page += section_text(section);
+  for (const Section& section : point_sections()) page += section_text(section);
+  return page;
+}
+
+}  // namespace vitrum

@@ -1,0 +1,9 @@
+#pragma once
+#include <string>
+
+namespace vitrum {
+
+/// docs/scene-reference.md: every key of scene and point files, from the tables that the reader itself uses.
+std::string scene_reference();
+
+}  // namespace vitrum

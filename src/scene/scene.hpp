@@ -1,0 +1,110 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "materials/material_parameters.hpp"
+
+namespace vitrum {
+
+/// A vector (r, z) or (x, y).
+using Vector2 = std::array<double, 2>;
+
+enum class Geometry { axisymmetric, plane_strain };
+enum class ShapeFunctions { linear, gimp, bspline2 };
+enum class GridMethod { explicit_steps, arkode_explicit, arkode_implicit };
+enum class ExplicitScheme { usf, usl, musl };
+enum class LocalMethod { closed_form, substep, cvode };
+
+struct Box {
+  Vector2 min, max;
+};
+struct Disk {
+  Vector2 centre;
+  double radius;
+};
+struct Ring {
+  Vector2 centre;
+  double inner, outer;
+};
+struct Polygon {
+  std::vector<Vector2> vertices;
+};
+using Shape = std::variant<Box, Disk, Ring, Polygon>;
+
+struct BodyDefinition {
+  std::string name;
+  std::string material;
+  Shape shape;
+  int particles_per_cell = 1;                  ///< 1, 4, 9 or 16
+  Vector2 velocity{0.0, 0.0};                  ///< m/s at the origin
+  std::array<Vector2, 2> velocity_gradient{};  ///< rows: dv_r/d(r,z), dv_z/d(r,z), 1/s
+  std::array<double, 4> stress{};              ///< (rr, zz, tt, rz), Pa
+};
+
+struct BoundaryDefinition {
+  Box box{};  ///< acts on grid nodes inside; may be infinite
+  std::array<bool, 2> fixed{false, false};
+  Vector2 velocity{0.0, 0.0};  ///< m/s, of the fixed components
+};
+
+struct IntegratorDefinition {
+  GridMethod method = GridMethod::explicit_steps;
+  ExplicitScheme scheme = ExplicitScheme::usf;
+  std::optional<double> step;  ///< s; exactly one of step and courant is set for explicit_steps
+  std::optional<double> courant;
+  double max_growth = 1.5;  ///< may be infinite
+  // arkode-*: read and validated; their methods come with a later version
+  int order = 3;
+  std::optional<std::string> table;
+  double rtol = 1.0e-3;
+  std::optional<double> fixed_step, max_step, min_step, initial_step;
+  std::string linear_solver = "klu";
+  double remap = 1.0e-6;
+};
+
+struct ConstitutiveDefinition {
+  LocalMethod method = LocalMethod::closed_form;
+  double rtol = 1.0e-6;
+  double atol = 1.0e-9;
+  std::string solver = "bdf";
+};
+
+struct OutputDefinition {
+  std::optional<double> every;                     ///< s; none: only the last state
+  std::optional<std::vector<std::string>> fields;  ///< none: all that the scene's models have
+  std::optional<double> checkpoint_every;          ///< s; none: only on a signal
+};
+
+/// A validated scene. Everything is SI; every default is filled in.
+struct Scene {
+  std::string title;
+  Geometry geometry = Geometry::axisymmetric;
+  double cell = 0.0;  ///< m
+  ShapeFunctions shape_functions = ShapeFunctions::linear;
+  double start = 0.0, end = 0.0;  ///< s
+  IntegratorDefinition integrator;
+  ConstitutiveDefinition constitutive;
+  OutputDefinition output;
+  std::vector<BodyDefinition> bodies;
+  std::vector<BoundaryDefinition> boundaries;
+  Vector2 gravity{0.0, 0.0};                  ///< m/s^2
+  std::vector<MaterialParameters> materials;  ///< in the order of the file
+  std::string verbatim;                       ///< the file's text, unchanged
+  std::vector<std::string> overrides;         ///< the --set arguments, in order
+};
+
+/// A validated point file (`vitrum point`).
+struct PointScene {
+  MaterialParameters material;
+  ConstitutiveDefinition constitutive;
+  std::vector<double> time;             ///< s, increasing
+  std::vector<SymmetricTensor> strain;  ///< one per time
+  double size = 0.0;                    ///< cell size, m
+  int samples = 200;                    ///< rows per segment
+};
+
+}  // namespace vitrum

@@ -1,0 +1,174 @@
+#include <limits>
+
+#include "scene/choices.hpp"
+#include "scene/scene.hpp"
+#include "scene/scene_keys.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene::keys {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Bounds positive{0.0, infinite, true, true};
+constexpr Bounds finite{-infinite, infinite, true, true};
+constexpr Bounds fraction{0.0, 1.0, true, true};
+
+KeyInfo integer_key(std::string_view name, int lowest, int highest, int fallback, std::string_view meaning) {
+  KeyInfo key = other_key(
+      name, "an integer from " + std::to_string(lowest) + " to " + std::to_string(highest), meaning);
+  key.bounds = {static_cast<double>(lowest), static_cast<double>(highest)};
+  return defaulted(std::move(key), std::to_string(fallback));
+}
+
+KeyInfo fields_key() {
+  KeyInfo key = other_key("fields", "", "particle fields written; absent: all that the scene's models have");
+  key.choices = output_fields();
+  key.expected = "a list of " + quoted_list(key.choices);
+  return key;
+}
+
+}  // namespace
+
+KeyTable scene() {
+  static const std::vector<KeyInfo> keys{
+      defaulted(text_key("title", "shown in summaries and pictures"), "\"\""),
+      required(other_key("space", "a table [space]", "geometry and grid")),
+      required(other_key("time", "a table [time]", "time span")),
+      required(other_key("integrator", "a table [integrator]", "the grid momentum equations")),
+      other_key("constitutive", "a table [constitutive]", "the local equations of each particle"),
+      other_key("output", "a table [output]", "what is written, and when"),
+      required(other_key("body", "tables [[body]], at least one", "the bodies, in order")),
+      other_key("boundary", "tables [[boundary]]", "grid nodes that are held or driven"),
+      other_key("gravity", "a table [gravity]", "body force; absent: none"),
+      required(other_key("material", "a table [material.NAME] for each material", "the materials")),
+  };
+  return keys;
+}
+
+KeyTable space() {
+  static const std::vector<KeyInfo> keys{
+      required(
+          choice_key("geometry", geometry_names,
+                     "coordinates (r, z) with the axis at r = 0, or (x, y) with no strain across the plane")),
+      required(number_key("cell", positive, "m", "side of the square grid cells; the grid is unbounded")),
+      defaulted(choice_key("shape_functions", shape_function_names, "`linear` is the paper's"), "\"linear\""),
+  };
+  return keys;
+}
+
+KeyTable time() {
+  static const std::vector<KeyInfo> keys{
+      defaulted(number_key("start", finite, "s", "may be negative, so that t = 0 is first touch"),
+                Scene{}.start),
+      required(number_key("end", finite, "s", "later than `start`")),
+  };
+  return keys;
+}
+
+KeyTable integrator() {
+  static const IntegratorDefinition standard;
+  static const std::vector<KeyInfo> keys{
+      required(choice_key("method", grid_method_names, "this version runs `explicit`")),
+      defaulted(choice_key("scheme", scheme_names,
+                           "explicit: when particle stress is updated: first, last, or last after a second "
+                           "projection of velocity"),
+                "\"usf\""),
+      number_key("step", positive, "s", "explicit: fixed step, instead of `courant`"),
+      defaulted(number_key("courant", positive, "1",
+                           "explicit: adaptive step, this fraction of the critical one; used when neither it "
+                           "nor `step` is given"),
+                default_courant),
+      defaulted(
+          number_key("max_growth", {1.0, infinite, true, false}, "1",
+                     "watchdog: the run fails when (kinetic + elastic) / (initial + external work) passes "
+                     "this; inf: only non-finite values stop it"),
+          standard.max_growth),
+      integer_key("order", 2, 5, standard.order, "arkode-*: order of the Butcher table, instead of `table`"),
+      text_key("table", "arkode-*: a Butcher table by its SUNDIALS name, instead of `order`"),
+      defaulted(number_key("rtol", fraction, "1", "arkode-*: tolerance relative to the scene's own scales"),
+                standard.rtol),
+      number_key("fixed_step", positive, "s", "arkode-*: switches adaptivity off (convergence studies)"),
+      number_key("max_step", positive, "s", "arkode-*: longest step"),
+      number_key("min_step", positive, "s", "arkode-*: shortest step"),
+      number_key("initial_step", positive, "s", "arkode-*: first step"),
+      defaulted(choice_key("linear_solver", linear_solver_names, "arkode-implicit"),
+                quoted(standard.linear_solver)),
+      defaulted(
+          number_key("remap", positive, "s", "arkode-implicit: longest Lagrangian phase between remaps"),
+          standard.remap),
+  };
+  return keys;
+}
+
+KeyTable constitutive() {
+  static const ConstitutiveDefinition standard;
+  static const std::vector<KeyInfo> keys{
+      defaulted(choice_key("method", local_method_names, "this version runs `closed-form` (return mappings)"),
+                "\"closed-form\""),
+      defaulted(number_key("rtol", fraction, "1", "substep, cvode: relative tolerance"), standard.rtol),
+      defaulted(number_key("atol", fraction, "1",
+                           "substep, cvode: absolute tolerance, times each state's own scale"),
+                standard.atol),
+      defaulted(choice_key("solver", local_solver_names, "cvode: multistep family"), quoted(standard.solver)),
+  };
+  return keys;
+}
+
+KeyTable output() {
+  static const std::vector<KeyInfo> keys{
+      number_key("every", positive, "s", "time between outputs; absent: only the last state"),
+      fields_key(),
+      number_key("checkpoint_every", positive, "s", "time between checkpoints; absent: none but on a signal"),
+  };
+  return keys;
+}
+
+KeyTable gravity() {
+  static const std::vector<KeyInfo> keys{
+      required(list_key("acceleration", 2, finite, "m/s^2", "(r, z) or (x, y)")),
+  };
+  return keys;
+}
+
+KeyTable point() {
+  static const std::vector<KeyInfo> keys{
+      required(other_key("material", "one table [material.NAME]", "the material, as in a scene")),
+      other_key("constitutive", "a table [constitutive]", "as in a scene"),
+      required(other_key("path", "a table [path]", "the strain path")),
+  };
+  return keys;
+}
+
+KeyTable path() {
+  static const PointScene standard;
+  static const std::vector<KeyInfo> keys{
+      required([] {
+        KeyInfo key =
+            other_key("time", "a list of two or more increasing finite numbers (s)", "times of `strain`");
+        key.bounds = finite;
+        return key;
+      }()),
+      required([] {
+        KeyInfo key = other_key(
+            "strain", "a list of 4 finite numbers for each time",
+            "total strain (rr, zz, tt, rz) or (xx, yy, zz, xy), tensor shear; linear between times");
+        key.bounds = finite;
+        return key;
+      }()),
+      required(
+          number_key("size", positive, "m", "side of the cell around the point, for the effective length")),
+      integer_key("samples", 1, 1'000'000, standard.samples, "rows written for each segment of the path"),
+  };
+  return keys;
+}
+
+const std::vector<std::string>& output_fields() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list{"position", "velocity", "stress", "elastic_strain", "damage"};
+    for (const VariableInfo& variable : all_variables()) list.emplace_back(variable.name);
+    return list;
+  }();
+  return names;
+}
+
+}  // namespace vitrum::scene::keys

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/toml_reader.hpp"
+
+/// Readers of the parts of a document. Each reports its faults to the reader's diagnostics and fills what it
+/// could read.
+namespace vitrum::scene {
+
+void read_space(const TableReader& document, Scene& scene);
+void read_time(const TableReader& document, Scene& scene);
+void read_gravity(const TableReader& document, Scene& scene);
+void read_output(const TableReader& document, OutputDefinition& output);
+void read_integrator(const TableReader& document, IntegratorDefinition& integrator);
+void read_constitutive(const TableReader& document, ConstitutiveDefinition& constitutive);
+
+/// Every [material.NAME], in the order of the file; those that only --set names come last.
+std::vector<MaterialParameters> read_materials(const TableReader& document);
+
+/// Reads scene.bodies; needs scene.geometry and scene.materials.
+void read_bodies(const TableReader& document, Scene& scene);
+/// Reads scene.boundaries; needs scene.geometry.
+void read_boundaries(const TableReader& document, Scene& scene);
+
+/// Reads [path] of a point file.
+void read_path(const TableReader& document, PointScene& point);
+
+}  // namespace vitrum::scene

@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace vitrum {
+
+/// A particle to be: centre (m) and area of its square or rectangle (m^2).
+struct Seed {
+  Vector2 position;
+  double area;
+};
+
+/// Fills a shape with particles, `per_side` x `per_side` per cell. A box is divided evenly from its own
+/// corner, so that its area is exact; other shapes take the points of the grid's own lattice that lie inside.
+std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side);
+
+}  // namespace vitrum

@@ -1,0 +1,81 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "materials/material.hpp"
+
+namespace vitrum::test {
+
+inline constexpr double cell = 1.0e-3;  // m, the paper's grid
+
+/// The paper's glass: elasticity alone; the models are switched on one by one.
+inline MaterialParameters bare_glass() {
+  MaterialParameters p;
+  p.name = "glass";
+  p.elastic = {2500.0, 72.0e9, 0.25};
+  return p;
+}
+inline DamageParameters glass_damage() { return {0.83e6, 5.0e26, 6.0, 1.0, 0.0}; }
+inline DecohesionParameters glass_decohesion() { return {5.0e-6, 1.0, 50.0, 0.0, false}; }
+inline DruckerPragerParameters glass_drucker_prager() { return {43.0e6, 1.8, false}; }
+
+inline MaterialParameters damaging_glass() {
+  MaterialParameters p = bare_glass();
+  p.damage = glass_damage();
+  return p;
+}
+inline MaterialParameters fracturing_glass(bool all_planes = false) {
+  MaterialParameters p = damaging_glass();
+  p.decohesion = glass_decohesion();
+  p.decohesion->search_all_planes = all_planes;
+  return p;
+}
+
+/// The paper's steel: elasticity alone; the models are switched on one by one.
+inline MaterialParameters bare_steel() {
+  MaterialParameters p;
+  p.name = "steel";
+  p.elastic = {7800.0, 195.0e9, 0.25};
+  return p;
+}
+inline VonMisesParameters steel_von_mises() { return {359.0e6, 484.0e6, 9.6e9, 9.6e9}; }
+inline DecohesionParameters steel_decohesion() { return {1.6e-9, 1.0, 1.0, 0.0, false}; }
+inline MaterialParameters flowing_steel() {
+  MaterialParameters p = bare_steel();
+  p.von_mises = steel_von_mises();
+  return p;
+}
+inline MaterialParameters fracturing_steel(bool all_planes = false) {
+  MaterialParameters p = flowing_steel();
+  p.decohesion = steel_decohesion();
+  p.decohesion->search_all_planes = all_planes;
+  return p;
+}
+
+struct NamedMaterial {
+  std::string name;
+  MaterialParameters parameters;
+};
+
+/// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not. Strengths are chosen such that
+/// every model acts at strains of about 1e-3.
+inline std::vector<NamedMaterial> all_compositions() {
+  std::vector<NamedMaterial> all;
+  for (const bool damage : {false, true})
+    for (const int yielding : {0, 1, 2})
+      for (const bool decohesion : {false, true}) {
+        MaterialParameters p = bare_glass();
+        std::string name = "elastic";
+        if (damage) p.damage = glass_damage(), name += "+damage";
+        if (yielding == 1) {
+          p.von_mises = VonMisesParameters{40.0e6, 50.0e6, 10.0e9, 40.0e9};
+          name += "+von_mises";
+        }
+        if (yielding == 2) p.drucker_prager = glass_drucker_prager(), name += "+drucker_prager";
+        if (decohesion) p.decohesion = glass_decohesion(), name += "+decohesion";
+        all.push_back({name, p});
+      }
+  return all;
+}
+
+}  // namespace vitrum::test

@@ -1,0 +1,71 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "materials/material.hpp"
+
+namespace vitrum::test {
+
+/// A straight piece of a strain path.
+struct Segment {
+  SymmetricTensor strain;
+  double duration;  // s
+};
+
+struct TimedEvent {
+  EventKind kind;
+  double time;
+};
+
+/// What following a path left behind. `work` is the integral of stress : d strain, J/m^3, by the rule of `drive`.
+struct Driven {
+  PointState state;
+  std::vector<TimedEvent> events;
+  Dissipation dissipation;
+  double work = 0.0;
+  double least_dissipation = 0.0;  ///< smallest total of one increment, J/m^3
+
+  double time_of(EventKind kind) const {  // -1 when it did not happen
+    for (const TimedEvent& e : events)
+      if (e.kind == kind) return e.time;
+    return -1.0;
+  }
+  long count(EventKind kind) const {
+    return std::count_if(events.begin(), events.end(), [&](const TimedEvent& e) { return e.kind == kind; });
+  }
+};
+
+/// Follows `path` with `steps` equal increments a segment; the trapezoidal rule gives the work.
+inline Driven drive(const Material& material, const std::vector<Segment>& path, int steps, PointState start = {}) {
+  Driven d{start, {}, {}, 0.0, 0.0};
+  double time = 0.0;
+  for (const Segment& segment : path) {
+    const double duration = segment.duration / steps;
+    const SymmetricTensor strain = (1.0 / steps) * segment.strain;
+    for (int i = 0; i < steps; ++i) {
+      const SymmetricTensor before = d.state.stress;
+      PointReport report;
+      material.respond(d.state, strain, duration, report);
+      for (std::size_t k = 0; k < report.event_count; ++k)
+        d.events.push_back({report.events[k].kind, time + duration * report.events[k].fraction});
+      d.dissipation += report.dissipation;
+      d.least_dissipation = std::min(d.least_dissipation, report.dissipation.total());
+      d.work += 0.5 * contract(before + d.state.stress, strain);
+      time += duration;
+    }
+  }
+  return d;
+}
+
+inline bool is_finite(const SymmetricTensor& a) {
+  return std::isfinite(a.rr) && std::isfinite(a.zz) && std::isfinite(a.tt) && std::isfinite(a.rz);
+}
+inline bool is_finite(const PointState& s) {
+  bool finite = is_finite(s.elastic_strain) && is_finite(s.stress);
+  for (const auto member : variable_members) finite = finite && std::isfinite(s.*member);
+  return finite;
+}
+inline double distance(const SymmetricTensor& a, const SymmetricTensor& b) { return norm(a - b); }
+
+}  // namespace vitrum::test

@@ -1,0 +1,70 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+
+#include "output/result_file.hpp"
+#include "output/result_reader.hpp"
+#include "sample_run.hpp"
+#include "temporary_directory.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum;
+using namespace vitrum::output;
+
+namespace {
+
+constexpr std::size_t particles = 2000;
+
+RunHeader header_of_many() {
+  RunHeader header = sample_header();
+  header.particles.body.assign(particles, 0);
+  header.particles.mass.assign(particles, 1.0);
+  return header;
+}
+
+[[noreturn]] void write_until_killed(const std::filesystem::path& directory,
+                                     ResultFile::Publishing publishing) {
+  try {
+    ResultFile result = ResultFile::create(directory, header_of_many(), publishing);
+    for (std::size_t s = 0;; ++s) result.append(sample_frame(s, particles));
+  } catch (...) {
+    _exit(1);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A kill at any moment leaves a result whose outputs are complete", "[output]") {
+  const auto publishing = GENERATE(ResultFile::Publishing::exchange, ResultFile::Publishing::replace);
+  std::mt19937 random(20260131);
+  std::uniform_int_distribution<useconds_t> delay(0, 60000);
+  std::size_t most = 0;
+  for (int round = 0; round < 20; ++round) {
+    const TemporaryDirectory directory;
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) write_until_killed(directory.path(), publishing);
+    while (!std::filesystem::exists(result_path(directory.path()))) usleep(200);
+    usleep(delay(random));
+    REQUIRE(kill(child, SIGKILL) == 0);
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFSIGNALED(status));
+
+    const ResultReader reader(directory.path());
+    const std::size_t outputs = reader.steps().size();
+    most = std::max(most, outputs);
+    for (std::size_t s = 0; s < outputs; ++s) {
+      const OutputFrame expected = sample_frame(s, particles);
+      REQUIRE(reader.steps()[s].time == expected.time);
+      for (const Field& field : expected.fields) REQUIRE(reader.field(s, field.name).values == field.values);
+    }
+    for (const StoredSeries& series : reader.series()) REQUIRE(series.values.size() == outputs);
+    ResultFile resumed = ResultFile::reopen(directory.path(), outputs / 2);
+    resumed.append(sample_frame(outputs / 2, particles));
+    REQUIRE(ResultReader(directory.path()).steps().size() == outputs / 2 + 1);
+  }
+  CHECK(most > 1);
+}

@@ -1,0 +1,179 @@
+#include "output/result_file.hpp"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+
+#include "output/atomic_file.hpp"
+#include "output/result_reader.hpp"
+#include "sample_run.hpp"
+#include "temporary_directory.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum;
+using namespace vitrum::output;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void check_complete(const std::filesystem::path& directory, std::size_t outputs) {
+  const ResultReader reader(directory);
+  REQUIRE(reader.steps().size() == outputs);
+  for (std::size_t s = 0; s < outputs; ++s) {
+    const OutputFrame expected = sample_frame(s);
+    CHECK(reader.steps()[s].time == expected.time);
+    CHECK(reader.step_index(s) == expected.step_index);
+    for (const Field& field : expected.fields) {
+      const Field found = reader.field(s, field.name);
+      CHECK(found.values == field.values);
+      CHECK(found.components == field.components);
+      CHECK(found.unit == field.unit);
+      CHECK(found.description == field.description);
+    }
+  }
+  for (const StoredSeries& series : reader.series()) {
+    REQUIRE(series.values.size() == outputs);
+    for (std::size_t s = 0; s < outputs && series.name == "kinetic"; ++s)
+      CHECK(series.values[s] == sample_frame(s).series[0].value);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("A result file has the documented layout", "[output]") {
+  const TemporaryDirectory directory;
+  {
+    ResultFile result = ResultFile::create(directory.path(), sample_header());
+    for (std::size_t s = 0; s < 4; ++s) result.append(sample_frame(s));
+    CHECK(result.steps().size() == 4);
+    CHECK(result.particles() == 3);
+    result.close();
+  }
+  CHECK_FALSE(std::filesystem::exists(next_of(result_path(directory.path()))));
+  check_complete(directory.path(), 4);
+
+  const File file = File::open_to_read(result_path(directory.path()));
+  const Group& root = file.root();
+  const RunHeader header = sample_header();
+  CHECK(root.names() ==
+        std::vector<std::string>{"bodies", "particles", "provenance", "scene", "series", "steps"});
+  CHECK(root.open_group("series").names() == std::vector<std::string>{"kinetic", "step_index", "time"});
+  CHECK(root.open_group("series").text_attribute("time", "unit") == "s");
+  CHECK(root.open_group("steps").names() == std::vector<std::string>{"00000", "00001", "00002", "00003"});
+  CHECK(root.extent("steps/00000/particles/position").columns == 2);
+  CHECK(root.read_text("scene/verbatim") == header.scene_verbatim);
+  CHECK(root.read_text("scene/resolved") == header.scene_resolved);
+  CHECK(root.text_attribute(".", "title") == header.title);
+  CHECK(root.text_attribute("provenance", "command") == header.provenance.command);
+  CHECK(root.read_indices("particles/body") == header.particles.body);
+  CHECK(root.read_doubles("particles/mass") == header.particles.mass);
+  CHECK(root.text_attribute("particles/mass", "unit") == "kg");
+  CHECK(root.read_texts("bodies") == header.particles.bodies);
+}
+
+TEST_CASE("Without exchange of names the shadow is renamed", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header(), ResultFile::Publishing::replace);
+  for (std::size_t s = 0; s < 3; ++s) result.append(sample_frame(s));
+  check_complete(directory.path(), 3);
+}
+
+TEST_CASE("Series may begin late, and frames may have no particles", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  OutputFrame frame = sample_frame(0);
+  frame.fields.clear();
+  result.append(frame);
+  frame.series.push_back({"late", "m", "begins late", 7.0});
+  result.append(frame);
+  result.append(frame);
+  const ResultReader reader(directory.path());
+  CHECK(reader.steps()[2].fields.empty());
+  for (const StoredSeries& series : reader.series())
+    if (series.name == "late") {
+      REQUIRE(series.values.size() == 3);
+      CHECK(std::isnan(series.values[0]));
+      CHECK(series.values[2] == 7.0);
+    }
+}
+
+TEST_CASE("A reopened result drops later outputs and goes on", "[output]") {
+  const TemporaryDirectory directory;
+  {
+    ResultFile result = ResultFile::create(directory.path(), sample_header());
+    for (std::size_t s = 0; s < 5; ++s) result.append(sample_frame(s));
+  }
+  const std::size_t kept = GENERATE(0U, 2U, 5U);
+  ResultFile result = ResultFile::reopen(directory.path(), kept);
+  check_complete(directory.path(), kept);
+  for (std::size_t s = kept; s < 7; ++s) result.append(sample_frame(s));
+  check_complete(directory.path(), 7);
+  CHECK(ResultReader(directory.path()).title() == sample_header().title);
+  CHECK_THROWS_WITH(ResultFile::reopen(directory.path(), 8), Contains("holds 7 outputs, fewer than the 8"));
+}
+
+TEST_CASE("A reader keeps the version it opened while the run goes on", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  result.append(sample_frame(0));
+  result.append(sample_frame(1));
+  const ResultReader reader(directory.path());
+  for (std::size_t s = 2; s < 6; ++s) result.append(sample_frame(s));
+  CHECK(reader.steps().size() == 2);
+  CHECK(reader.field(1, "damage").values == sample_frame(1).fields[1].values);
+  check_complete(directory.path(), 6);
+}
+
+TEST_CASE("A frame of the wrong size is refused", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  CHECK_THROWS_AS(result.append(sample_frame(0, 4)), std::invalid_argument);
+}
+
+TEST_CASE("Directories that cannot be written give errors", "[output]") {
+  const TemporaryDirectory directory;
+  CHECK_THROWS_AS(ResultFile::create(directory.path() / "absent", sample_header()), FileError);
+  std::ofstream(directory.path() / "file") << "x";
+  CHECK_THROWS_AS(ResultFile::create(directory.path() / "file", sample_header()), FileError);
+  CHECK_THROWS_AS(ResultFile::reopen(directory.path(), 0), FileError);
+  std::filesystem::permissions(directory.path(),
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  if (geteuid() != 0) CHECK_THROWS_AS(ResultFile::create(directory.path(), sample_header()), FileError);
+  std::filesystem::permissions(directory.path(), std::filesystem::perms::owner_all);
+}
+
+TEST_CASE("When the disk is full the error is reported and the result is as before", "[output]") {
+  const TemporaryDirectory directory;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    // A limit on the size of files stands in for the full disk.
+    const rlimit limit{std::size_t{1} << 20, std::size_t{1} << 20};
+    std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    ResultFile result = ResultFile::create(directory.path(), sample_header());
+    result.append(sample_frame(0));
+    OutputFrame large = sample_frame(1);
+    large.series.clear();
+    for (int s = 0; s < 400; ++s)
+      large.series.push_back({"series " + std::to_string(s), "1", "fills the disk", 0.0});
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      try {
+        result.append(large);
+        _exit(1);
+      } catch (const FileError&) {
+      }
+    }
+    result.append(sample_frame(1));
+    exit(result.steps().size() == 2 ? 0 : 2);  // through HDF5's own clean-up
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  check_complete(directory.path(), 2);
+}

@@ -1,0 +1,127 @@
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "output/atomic_file.hpp"
+#include "output/energy_csv.hpp"
+#include "output/summary.hpp"
+#include "output/xdmf.hpp"
+#include "sample_run.hpp"
+#include "scene/input_error.hpp"
+#include "temporary_directory.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum;
+using namespace vitrum::output;
+using Catch::Matchers::Contains;
+
+namespace {
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+constexpr double not_finite = std::numeric_limits<double>::infinity();
+}  // namespace
+
+TEST_CASE("Text is written as a whole or not at all", "[output]") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "text";
+  write_text_atomically(path, "one");
+  write_text_atomically(path, "");
+  CHECK(content(path).empty());
+  CHECK(std::distance(std::filesystem::directory_iterator(directory.path()), {}) == 1);
+  CHECK_THROWS_WITH(write_text_atomically(directory.path() / "absent" / "text", "x"),
+                    Contains("No such file or directory"));
+  std::filesystem::create_directory(directory.path() / "taken");
+  CHECK_THROWS_WITH(write_text_atomically(directory.path() / "taken", "x"), Contains("cannot replace"));
+}
+
+TEST_CASE("energy.csv grows by rows that round-trip, and can be continued", "[output]") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "energy.csv";
+  const EnergyTotals energy{10.0, 4.0, 0.1, 1.0, 2.0, 0.5, 0.25, -1.0, 1.0};
+  {
+    EnergyCsv csv = EnergyCsv::create(path);
+    for (int row = 0; row < 3; ++row) csv.append(0.1 * row, row, energy);
+    CHECK(csv.rows() == 3);
+    CHECK_THAT(content(path),
+               Contains("time,step,kinetic,elastic,plastic,damage,fracture,external,residual\n0,0,4,0.1,"));
+  }
+  std::ofstream(path, std::ios::app) << "0.3,3,4,0";  // cut off by a kill
+  CHECK_THROWS_WITH(EnergyCsv::reopen(path, 4), Contains("holds 3 rows, fewer than the 4"));
+  EnergyCsv csv = EnergyCsv::reopen(path, 2);
+  csv.append(0.2, 7, energy);
+  const std::string text = content(path);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 4);
+  CHECK(text.ends_with("\n0.2,7,4,0.1,1,2,0.5,-1,1.4000000000000004\n"));
+  std::ofstream(directory.path() / "other") << "a,b\n";
+  CHECK_THROWS_AS(EnergyCsv::reopen(directory.path() / "other", 0), FileError);
+  CHECK_THROWS_AS(EnergyCsv::create(directory.path() / "absent" / "energy.csv"), FileError);
+}
+
+TEST_CASE("The summary says null where nothing happened", "[output]") {
+  const TemporaryDirectory directory;
+  RunSummary summary;
+  summary.energy.kinetic = not_finite;
+  summary.bodies.push_back({"plate", 3, 1.5, {0.0, not_finite}, {0.1, 0.2}, 7.0, 1, 2});
+  const nlohmann::ordered_json json = to_json(summary);
+  for (const char* key : {"status", "message", "time", "particles", "wall_seconds", "threads", "integrator",
+                          "constitutive", "energy", "failure", "bodies", "provenance"})
+    CHECK(json.contains(key));
+  CHECK(json["status"] == "complete");
+  CHECK(json["message"].is_null());
+  CHECK(json["integrator"]["step_min"].is_null());
+  CHECK(json["energy"]["kinetic"].is_null());
+  CHECK(json["failure"]["first_damage"].is_null());
+  CHECK(json["failure"]["perforated"].is_null());
+  CHECK(json["failure"]["damage_threshold"] == 0.001);
+  CHECK(json["failure"]["fragments"]["largest_mass"].is_null());
+  CHECK(json["bodies"]["plate"]["momentum"][1].is_null());
+  CHECK(json["bodies"]["plate"]["separated"] == 2);
+  CHECK(json["provenance"].size() == 8);
+  summary.provenance.command = "vitrum run \xff.toml";
+  write_summary(directory.path() / "summary.json", summary);
+  CHECK(nlohmann::ordered_json::parse(content(directory.path() / "summary.json"))["failure"] ==
+        json["failure"]);
+}
+
+TEST_CASE("The summary reports what happened and lists the largest fragments", "[output]") {
+  RunSummary summary;
+  summary.status = RunStatus::failed;
+  summary.message = "energy grew";
+  summary.integrator.steps = 1;
+  summary.integrator.step_min = 1e-8;
+  summary.failure.first_separation = FirstEvent{1e-6, 0.1, 0.2, "plate"};
+  summary.failure.perforated = false;
+  for (int f = 150; f > 0; --f)
+    summary.failure.fragments.push_back({"plate", 1, 1.0 * f, {0.0, 1.0}, {2.0, 3.0}});
+  const nlohmann::ordered_json json = to_json(summary);
+  CHECK(json["status"] == "failed");
+  CHECK(json["message"] == "energy grew");
+  CHECK(json["integrator"]["step_min"] == 1e-8);
+  CHECK(json["failure"]["first_separation"]["body"] == "plate");
+  CHECK(json["failure"]["perforated"] == false);
+  const auto& fragments = json["failure"]["fragments"];
+  CHECK(fragments["count"] == 150);
+  CHECK(fragments["largest_mass"] == 150.0);
+  CHECK(fragments["total_mass"] == 150.0 * 151.0 / 2.0);
+  CHECK(fragments["list"].size() == 100);
+  CHECK(fragments["list"][99]["mass"] == 51.0);
+  CHECK(fragments["list"][0]["velocity"][1] == 3.0);
+}
+
+TEST_CASE("result.xdmf names every output and field", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  OutputFrame bare = sample_frame(1);
+  bare.fields.clear();
+  result.append(sample_frame(0));
+  result.append(bare);
+  result.append(sample_frame(2));
+  write_xdmf(result);
+  const std::string text = content(directory.path() / "result.xdmf");
+  CHECK_THAT(text, Contains("<Time Value=\"2e-06\"/>") &&
+                       Contains("result.h5:/steps/00002/particles/position") &&
+                       Contains("<Attribute Name=\"damage\" AttributeType=\"Scalar\" Center=\"Node\">") &&
+                       Contains("Dimensions=\"3 2\"") && !Contains("00001"));
+}

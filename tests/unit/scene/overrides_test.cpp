@@ -1,0 +1,108 @@
+#include "malformed_input.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+Scene scene_with(const std::vector<std::string>& overrides) {
+  return parse_scene(scene_text, "s.toml", overrides);
+}
+
+std::vector<std::string> faults_with(const std::vector<std::string>& overrides) {
+  return faults([&] { scene_with(overrides); });
+}
+
+void require_fault(const std::vector<std::string>& overrides, std::string_view start, std::string_view part) {
+  const std::vector<std::string> messages = faults_with(overrides);
+  for (const std::string& message : messages) UNSCOPED_INFO(message);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].starts_with(start));
+  CHECK(messages[0].find(part) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("--set replaces scalars, lists, list items and quoted keys", "[scene][overrides]") {
+  const Scene scene = scene_with({"time.end = 2e-4", "body.1.velocity.1=-800", "body.0.box.max=[0.4, 0.005]",
+                                  "material.\"glass\".damage.m=7", "integrator.scheme=\"musl\""});
+  CHECK(scene.end == 2.0e-4);
+  CHECK(scene.bodies[1].velocity == Vector2{0.0, -800.0});
+  CHECK(std::get<Box>(scene.bodies[0].shape).max == Vector2{0.4, 0.005});
+  CHECK(scene.materials[0].damage->m == 7.0);
+  CHECK(scene.integrator.scheme == ExplicitScheme::musl);
+  CHECK(scene.overrides.size() == 5);
+  CHECK(scene.verbatim == scene_text);
+}
+
+TEST_CASE("--set creates missing keys and tables", "[scene][overrides]") {
+  const Scene scene =
+      scene_with({"output.every=1e-5", "gravity.acceleration=[0, -9.81]", "time.start=-1e-5",
+                  "material.ice.density=917", "material.ice.young=9e9", "material.ice.poisson=0.3"});
+  CHECK(scene.output.every == 1.0e-5);
+  CHECK(scene.gravity == Vector2{0.0, -9.81});
+  CHECK(scene.start == -1.0e-5);
+  REQUIRE(scene.materials.size() == 3);
+  CHECK(scene.materials[2].name == "ice");
+}
+
+TEST_CASE("--set of step and courant replaces the other", "[scene][overrides]") {
+  const Scene courant = scene_with({"integrator.courant=0.1"});
+  CHECK_FALSE(courant.integrator.step);
+  CHECK(courant.integrator.courant == 0.1);
+  const Scene later = scene_with({"integrator.courant=0.1", "integrator.step=1e-8"});
+  CHECK(later.integrator.step == 1.0e-8);
+  CHECK_FALSE(later.integrator.courant);
+}
+
+TEST_CASE("the later --set wins", "[scene][overrides]") {
+  CHECK(scene_with({"time.end=1", "time.end=2"}).end == 2.0);
+  CHECK(scene_with({"body.1.velocity.0=5", "body.1.velocity=[1, 2]"}).bodies[1].velocity ==
+        Vector2{1.0, 2.0});
+  CHECK(scene_with({"body.1.velocity=[1, 2]", "body.1.velocity.0=5"}).bodies[1].velocity ==
+        Vector2{5.0, 2.0});
+}
+
+TEST_CASE("--set faults name the argument", "[scene][overrides]") {
+  require_fault({"time.end=1", "integrator.stp=1"},
+                "--set 2: key 'integrator.stp': ", "did you mean 'step'?");
+  require_fault({"time.end=-1"}, "--set 1: key 'time.end': ", "found -1, expected a time later");
+  require_fault({"body.1.velocity.1=inf"}, "--set 1: key 'body.1.velocity.1': ", "found inf");
+  require_fault({"body.1.velocity=[1, 2]", "body.1.velocity.0=true"},
+                "--set 2: key 'body.1.velocity.0': ", "true");
+  require_fault({"material.ice={density=1, young=1}"},
+                "--set 1: key 'material.ice.poisson': ", "found nothing");
+  require_fault({"material.glass.poisson=0.45"}, "--set 1: key 'material.glass.poisson': ", "damage");
+}
+
+TEST_CASE("--set arguments that cannot be applied", "[scene][overrides]") {
+  require_fault({"integrator.scheme=musl"},
+                "--set 1: key 'integrator.scheme': found musl, expected a TOML value",
+                "quote a string: --set 'integrator.scheme=\"musl\"'");
+  require_fault({"body.2.velocity.1=-800"}, "--set 1: key 'body.2': ", "found index 2 of a list of length 2");
+  require_fault({"body.0.box.min.5=0"}, "--set 1: key 'body.0.box.min.5': ", "length 2");
+  require_fault({"body.first.name=\"x\""}, "--set 1: key 'body.first': ", "an index from 0 to 1");
+  require_fault({"body.0.velocity.1=-800"},
+                "--set 1: key 'body.0.velocity': ", "--set 'body.0.velocity=[..]'");
+  require_fault({"time.end.x=1"}, "--set 1: key 'time.end': ", "found 1e-04, expected a table or list");
+  require_fault({"time.end"}, "--set 1: found \"time.end\"", "KEY=VALUE");
+  require_fault({"=1"}, "--set 1: ", "KEY=VALUE");
+  require_fault({"time..end=1"}, "--set 1: ", "KEY=VALUE");
+  require_fault({"time.end="}, "--set 1: key 'time.end': found nothing", "a TOML value");
+  require_fault({"time.end=1\n[body]"}, "--set 1: key 'time.end': ", "a TOML value");
+  require_fault({"time.end=1 2"}, "--set 1: key 'time.end': ", "found 1 2");
+}
+
+TEST_CASE("faults of file and command line are reported together", "[scene][overrides]") {
+  const auto messages = faults([] {
+    parse_scene(with(scene_text, "cell = 1.0e-3", "cell = 0"), "s.toml", {"time.end=", "integrator.stp=1"});
+  });
+  REQUIRE(messages.size() == 3);
+  CHECK(messages[0].starts_with("s.toml:4:8: "));
+  CHECK(messages[1].starts_with("--set 1: "));
+  CHECK(messages[2].starts_with("--set 2: "));
+}
+
+TEST_CASE("point files take --set too", "[scene][overrides]") {
+  CHECK(parse_point(point_text, "p.toml", {"path.samples=7"}).samples == 7);
+}
