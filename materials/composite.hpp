@@ -57,6 +57,24 @@ class Composite final : public Material {
     }
   }
 
+  /// Calls f(Variable) for the internal variables of the models present, in the order of Variable.
+  template <class F>
+  static void for_own_variables([[maybe_unused]] F&& f) {
+    using V = Variable;
+    if constexpr (has_damage) f(V::crack_density), f(V::max_rate);
+    if constexpr (has_yield) f(V::plastic_strain);
+    if constexpr (has_decohesion) {
+      f(V::decohesion), f(V::opening_n), f(V::opening_t), f(V::normal_r), f(V::normal_z);
+      f(V::effective_length), f(V::cohesive_strength);
+    }
+    if constexpr (!elastic_only) f(V::dissipated);
+  }
+
+  // composite_batch.hpp
+  bool stays_elastic(const PointState& s, const SymmetricTensor& end, double duration) const;
+  void load(const ParticleColumns& p, std::size_t i, PointState& s) const;
+  void store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const;
+
   // composite_intact.hpp
   double advance_intact(PointState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
   void release_excess_shear(PointState& s, double done, PointReport& report) const;

@@ -10,17 +10,7 @@ Composite<D, Y, C>::Composite(const MaterialParameters& parameters, double cell)
   if constexpr (Y == Yielding::von_mises) von_mises_ = VonMisesLaw(*parameters.von_mises);
   if constexpr (Y == Yielding::drucker_prager) drucker_prager_ = DruckerPragerLaw(*parameters.drucker_prager);
   if constexpr (C) decohesion_ = DecohesionLaw(*parameters.decohesion);
-  const auto needs = [](Variable v) {
-    switch (v) {
-      case Variable::crack_density:
-      case Variable::max_rate: return D;
-      case Variable::plastic_strain: return has_yield;
-      case Variable::dissipated: return !elastic_only;
-      default: return C;
-    }
-  };
-  for (const VariableInfo& info : all_variables())
-    if (needs(info.variable)) variables_.push_back(info);
+  for_own_variables([this](Variable v) { variables_.push_back(all_variables()[static_cast<std::size_t>(v)]); });
 }
 
 template <bool D, Yielding Y, bool C>
@@ -56,54 +46,85 @@ void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, d
   }
 }
 
+/// Whether an increment from e0 to e1 meets no event and changes no internal variable: most do, and need nothing but Hooke's law.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTensor& e1, double duration) const {
+  if (C && is_localised(s)) return false;
+  const double t0 = trace(s.elastic_strain), t1 = trace(e1);
+  const bool tension = t0 > 0.0 || t1 > 0.0;
+  if constexpr (D || Y == Yielding::drucker_prager)
+    if (tension && (t0 < 0.0 || t1 < 0.0)) return false;  // changes side
+  if constexpr (D)
+    if (t1 > t0 && tension) {
+      if (t1 - t0 > 3.0 * duration * s.max_rate) return false;
+      if (damage_.target(t1 / 3.0, damage_.coefficient(damage_.effective_rate(s.max_rate))) > s.crack_density) return false;
+    }
+  if constexpr (has_yield) {
+    if (Y == Yielding::drucker_prager && tension) return true;
+    PointState end = s;
+    end.elastic_strain = e1;
+    return yield_function(end, secant(tension, s.crack_density)) <= 0.0;
+  }
+  return true;
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::load(const ParticleColumns& p, std::size_t i, PointState& s) const {
+  s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i], p.elastic_strain[3][i]};
+  for_own_variables([&](Variable v) {
+    const auto k = static_cast<std::size_t>(v);
+    s.*variable_members[k] = p.variables[k][i];
+  });
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const {
+  for_own_variables([&](Variable v) {
+    const auto k = static_cast<std::size_t>(v);
+    p.variables[k][i] = s.*variable_members[k];
+  });
+}
+
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
                                  BatchReport& report) const {
   const double specific_volume = 1.0 / parameters_.elastic.density;
+  PointState s;
   PointReport point;
   double stored = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
-    PointState s;
-    s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i], p.elastic_strain[3][i]};
-    if constexpr (!elastic_only)
-      for (const VariableInfo& info : variables_) {
-        const auto v = static_cast<std::size_t>(info.variable);
-        s.*variable_members[v] = p.variables[v][i];
-      }
+    load(p, i, s);
     const SymmetricTensor strain{p.strain_increment[0][i], p.strain_increment[1][i], p.strain_increment[2][i],
                                  p.strain_increment[3][i]};
-    point.event_count = 0;
-    point.dissipation = {};
-    respond(s, strain, duration, point);
-
     const Rotation turn = rotation_by(p.spin_increment[i]);
-    const SymmetricTensor e = s.elastic_strain = rotate(s.elastic_strain, turn);
-    const Moduli moduli = secant_moduli(s);
-    const SymmetricTensor stress = moduli.stress(e);
-    p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt, p.elastic_strain[3][i] = e.rz;
-    p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt, p.stress[3][i] = stress.rz;
-    if constexpr (C)
-      if (is_localised(s)) {
+    const SymmetricTensor elastic_end = s.elastic_strain + strain;
+    const double reference = p.mass[i] * specific_volume;
+    if (elastic_only || stays_elastic(s, elastic_end, duration)) {
+      s.elastic_strain = rotate(elastic_end, turn);
+    } else {
+      point.event_count = 0;
+      point.dissipation = {};
+      respond(s, strain, duration, point);
+      s.elastic_strain = rotate(s.elastic_strain, turn);
+      if (C && is_localised(s)) {
         const double r = s.normal_r, z = s.normal_z;
         s.normal_r = turn.cosine * r - turn.sine * z;
         s.normal_z = turn.sine * r + turn.cosine * z;
       }
-    if constexpr (!elastic_only)
-      for (const VariableInfo& info : variables_) {
-        const auto v = static_cast<std::size_t>(info.variable);
-        p.variables[v][i] = s.*variable_members[v];
-      }
-
-    const double reference = p.mass[i] * specific_volume;
-    stored += reference * stored_energy_of_volume(moduli, e);
-    if constexpr (!elastic_only) {
-      const double volume = reference * (1.0 + trace(e));
+      store_variables(s, p, i);
+      const double volume = reference * (1.0 + trace(s.elastic_strain));
       report.dissipated.plastic += volume * point.dissipation.plastic;
       report.dissipated.damage += volume * point.dissipation.damage;
       report.dissipated.fracture += volume * point.dissipation.fracture;
       report.dissipated.snap_back += volume * point.dissipation.snap_back;
       for (std::size_t k = 0; k < point.event_count; ++k) report.events.push_back({i, point.events[k]});
     }
+    const SymmetricTensor& e = s.elastic_strain;
+    const Moduli moduli = secant_moduli(s);
+    const SymmetricTensor stress = moduli.stress(e);
+    p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt, p.elastic_strain[3][i] = e.rz;
+    p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt, p.stress[3][i] = stress.rz;
+    stored += reference * stored_energy_of_volume(moduli, e);
   }
   report.elastic += stored;
 }

@@ -119,8 +119,13 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   // The last equilibrium before separation: lambda near 1, or less where the softening turns into a snap-back on its way.
   separated_at = first_reached(0.0, step, [&](double f) { return advanced(f).separates; });
   const double last = separated_at - 1e-12 * step;
-  if (last > 0.0) soften(last, advanced(last));
-  s.elastic_strain += (separated_at - std::max(last, 0.0)) * strain;
+  const DecohesionLaw::Advance before = advanced(std::max(last, 0.0));
+  if (last > 0.0 && !before.separates) {
+    soften(last, before);
+    s.elastic_strain += (separated_at - last) * strain;
+  } else {
+    s.elastic_strain += separated_at * strain;
+  }
   separate(s, moduli, dissipation);
   return separated_at;
 }

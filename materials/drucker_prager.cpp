@@ -9,13 +9,18 @@ PlasticReturn DruckerPragerLaw::flow(SymmetricTensor& elastic_strain, const Modu
   const double f = yield_function(elastic_strain, moduli);
   if (!(f > 0.0)) return {};
   const double K = moduli.bulk, G = moduli.shear;
-  const double multiplier = f / (3.0 * G + K * parameters_.beta * dilatancy_);
+  double multiplier = f / (3.0 * G + K * parameters_.beta * dilatancy_);
   const SymmetricTensor d = deviator(elastic_strain);
   const double trial_q = 2.0 * G * std::sqrt(1.5 * contract(d, d));
-  const double q = trial_q - 3.0 * G * multiplier;
+  double q = trial_q - 3.0 * G * multiplier;
   const double trial_trace = trace(elastic_strain);
-  const double end_trace = trial_trace - dilatancy_ * multiplier;
-  const double scale = q / trial_q;
+  double end_trace = trial_trace - dilatancy_ * multiplier;
+  if (!(q > 0.0)) {  // beyond the apex, which only a trial far into tension under dilatant flow sees
+    q = 0.0;
+    end_trace = parameters_.yield / (parameters_.beta * K);
+    multiplier = (trial_trace - end_trace) / dilatancy_;
+  }
+  const double scale = trial_q > 0.0 ? q / trial_q : 0.0;
   const double mean = end_trace / 3.0;
   elastic_strain = {scale * d.rr + mean, scale * d.zz + mean, scale * d.tt + mean, scale * d.rz};
   plastic_strain += multiplier * std::sqrt(1.5 + dilatancy_ * dilatancy_ / 3.0);

@@ -8,47 +8,59 @@
 namespace vitrum::mpm {
 
 /// Where a block at offset d (-1, 0, 1) from another one overlaps the other's tile: `count` nodes from `node` in the block, from
-/// `entry` in the tile.
+/// `entry` in the tile. Compile-time, so that rows are copied without a call.
+template <int d>
 struct Overlap {
-  int node, entry, count;
+  static constexpr int node = d < 0 ? block_side - 1 : 0;
+  static constexpr int entry = d < 0 ? 0 : d == 0 ? 1 : block_side + 1;
+  static constexpr int count = d < 0 ? 1 : d == 0 ? block_side : 2;
 };
-inline constexpr Overlap overlap_of_neighbour[3] = {{block_side - 1, 0, 1}, {0, 1, block_side}, {0, block_side + 1, 2}};
+
+/// Calls f.operator()<di, dj>() for the 3 x 3 neighbourhood, in a fixed order.
+template <class F>
+inline void for_neighbourhood(F&& f) {
+  f.template operator()<-1, -1>(), f.template operator()<0, -1>(), f.template operator()<1, -1>();
+  f.template operator()<-1, 0>(), f.template operator()<0, 0>(), f.template operator()<1, 0>();
+  f.template operator()<-1, 1>(), f.template operator()<0, 1>(), f.template operator()<1, 1>();
+}
+
+inline std::int32_t neighbour(const Block& b, int di, int dj) {
+  return b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
+}
 
 /// Copies a nodal field into the tile of block `b` (absent blocks: zero).
 inline void load_tile(const Block& b, const double* field, double* tile) {
-  for (int dj = -1; dj <= 1; ++dj)
-    for (int di = -1; di <= 1; ++di) {
-      const std::int32_t n = b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
-      const Overlap i = overlap_of_neighbour[di + 1], j = overlap_of_neighbour[dj + 1];
-      for (int row = 0; row < j.count; ++row) {
-        double* to = tile + (j.entry + row) * tile_columns + i.entry;
-        if (n < 0) {
-          std::fill(to, to + i.count, 0.0);
-        } else {
-          const double* from = field + static_cast<std::size_t>(n) * block_nodes + (j.node + row) * block_side + i.node;
-          std::copy(from, from + i.count, to);
-        }
-      }
+  for_neighbourhood([&]<int di, int dj>() {
+    using I = Overlap<di>;
+    using J = Overlap<dj>;
+    const std::int32_t n = neighbour(b, di, dj);
+    double* to = tile + J::entry * tile_columns + I::entry;
+    if (n < 0) {
+      for (int row = 0; row < J::count; ++row)
+        for (int column = 0; column < I::count; ++column) to[row * tile_columns + column] = 0.0;
+      return;
     }
+    const double* from = field + static_cast<std::size_t>(n) * block_nodes + J::node * block_side + I::node;
+    for (int row = 0; row < J::count; ++row)
+      for (int column = 0; column < I::count; ++column) to[row * tile_columns + column] = from[row * block_side + column];
+  });
 }
 
 /// Adds up what all tiles hold for the nodes of block `b`. slot: which of a tile's five fields.
 inline void reduce_tiles(Grid& grid, const Block& b, std::size_t block, std::size_t slot, Field field) {
   double* nodes = grid.field(field) + block * block_nodes;
   std::fill(nodes, nodes + block_nodes, 0.0);
-  for (int dj = -1; dj <= 1; ++dj)
-    for (int di = -1; di <= 1; ++di) {
-      const std::int32_t n = b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
-      if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) continue;
-      const double* tile =
-          grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile)) + slot * tile_nodes;
-      // Seen from the neighbour, this block lies at (-di, -dj).
-      const Overlap i = overlap_of_neighbour[1 - di], j = overlap_of_neighbour[1 - dj];
-      for (int row = 0; row < j.count; ++row)
-        for (int column = 0; column < i.count; ++column)
-          nodes[(j.node + row) * block_side + i.node + column] +=
-              tile[(j.entry + row) * tile_columns + i.entry + column];
-    }
+  for_neighbourhood([&]<int di, int dj>() {
+    using I = Overlap<-di>;  // seen from the neighbour, this block lies at (-di, -dj)
+    using J = Overlap<-dj>;
+    const std::int32_t n = neighbour(b, di, dj);
+    if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) return;
+    const double* from = grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile)) +
+                         slot * tile_nodes + J::entry * tile_columns + I::entry;
+    double* to = nodes + J::node * block_side + I::node;
+    for (int row = 0; row < J::count; ++row)
+      for (int column = 0; column < I::count; ++column) to[row * block_side + column] += from[row * tile_columns + column];
+  });
 }
 
 /// The axis is a plane of symmetry: the image of a particle at -r touches node +1 as the particle touches node -1, with the

@@ -15,7 +15,7 @@ A run writes into its output directory:
 |---|---|---|
 | `summary.json` | the run in numbers | at the end, whatever the end was |
 | `result.h5` | particles and series at every output | at every output |
-| `result.xdmf` | opens `result.h5` in ParaView (any of its three XDMF readers) and VisIt | at every output |
+| `result.xdmf` | opens `result.h5` in ParaView (with any of its three XDMF readers) | at every output |
 | `energy.csv` | the energy account | row by row |
 | `checkpoint.h5` | everything a resumed run needs | on a signal, and as `output.checkpoint_every` asks |
 
@@ -30,6 +30,8 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   read while the run goes on; a program that has it open keeps the version that it opened.
 - A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
+- Truncated and foreign files are refused with a message. What is not caught: HDF5 stores attribute texts without a checksum, so that bytes
+  of `result.h5` that a failing disk alters there can make a reader loop.
 - `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them.
 
 ## `result.h5`

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 
+#include "contains_text.hpp"
 #include "output/atomic_file.hpp"
 #include "output/result_reader.hpp"
 #include "sample_run.hpp"
@@ -16,7 +17,6 @@
 
 using namespace vitrum;
 using namespace vitrum::output;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -113,7 +113,8 @@ TEST_CASE("A reopened result drops later outputs and goes on", "[output]") {
   for (std::size_t s = kept; s < 7; ++s) result.append(sample_frame(s));
   check_complete(directory.path(), 7);
   CHECK(ResultReader(directory.path()).title() == sample_header().title);
-  CHECK_THROWS_WITH(ResultFile::reopen(directory.path(), 8), Contains("holds 7 outputs, fewer than the 8"));
+  CHECK_THROWS_WITH(ResultFile::reopen(directory.path(), 8),
+                    contains_text("holds 7 outputs, fewer than the 8"));
 }
 
 TEST_CASE("A reader keeps the version it opened while the run goes on", "[output]") {

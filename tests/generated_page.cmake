@@ -1,0 +1,5 @@
+execute_process(COMMAND ${PROGRAM} reference OUTPUT_VARIABLE NOW COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${PAGE} COMMITTED)
+if(NOT NOW STREQUAL COMMITTED)
+  message(FATAL_ERROR "${PAGE} is not what 'vitrum reference' prints: write it anew")
+endif()
