@@ -240,17 +240,27 @@ void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg, [[maybe_
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const {
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
-  const double x0 = leg.start.crack_density / crack_density_limit, x1 = end.crack_density / crack_density_limit;
+  double x0 = leg.start.crack_density / crack_density_limit;
+  const double x1 = end.crack_density / crack_density_limit;
+  const double at_start = damage_.target(start_trace / 3.0, leg.coefficient);
   const auto fraction_at = [&](double density) {
     return std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change, 0.0, end_fraction);
   };
   // Growth begins where eq. 7 catches up with the crack density held so far, and ends at its cap.
-  const bool grows_from_start = damage_.target(start_trace / 3.0, leg.coefficient) >= leg.start.crack_density * (1.0 - 1e-12);
+  const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - 1e-12);
   const double from = grows_from_start ? 0.0 : fraction_at(leg.start.crack_density);
   const double to = x1 >= 1.0 ? fraction_at(crack_density_limit) : end_fraction;
+  // An initial stress may ask for more damage than the start holds: that much comes at once, at constant strain.
+  double sudden = 0.0;
+  if (at_start > leg.start.crack_density * (1.0 + 1e-9)) {
+    const double x = std::min(at_start / crack_density_limit, x1);
+    sudden = damage_.moduli(x0).energy(leg.start.elastic_strain) - damage_.moduli(x).energy(leg.start.elastic_strain);
+    x0 = x;
+  }
   if constexpr (Y == Yielding::von_mises)  // plastic flow has taken part of the deviator: straight from start to end
-    return damage_.dissipation(x0, x1, leg.start.elastic_strain, end.elastic_strain);
-  return damage_.dissipation(x0, x1, leg.start.elastic_strain + from * leg.strain, leg.start.elastic_strain + to * leg.strain);
+    return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain, end.elastic_strain);
+  return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain + from * leg.strain,
+                                      leg.start.elastic_strain + to * leg.strain);
 }
 
 }  // namespace vitrum

@@ -181,21 +181,54 @@ double Composite<D, Y, C>::advance_separated(PointState& s, const SymmetricTenso
   return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
 }
 
-/// Plastic flow of a localised point. Flow and traction-free faces are met in turn until both hold.
+/// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the material flows.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::flow_behind_crack(PointState& s, Dissipation& dissipation) const {
-  for (int i = 0; i < 25; ++i) {
-    const bool tension = trace(s.elastic_strain) > 0.0;
-    if (Y == Yielding::drucker_prager && tension) return;
-    const Moduli moduli = secant(tension, s.crack_density);
-    const double violated = yield_function(s, moduli);
-    if (violated <= 1e-9 * moduli.shear * norm(deviator(s.elastic_strain))) return;
-    dissipation.plastic += flow(s, moduli, i == 0 ? 0.0 : violated);
-    if (!is_separated(s)) return;
-    const double before = stored_energy(s);
-    relax_crack(s);
-    dissipation.plastic += std::max(0.0, before - stored_energy(s));
+  const auto excess = [&](const PointState& c) {  // > 0 outside the yield surface, Pa
+    const bool tension = trace(c.elastic_strain) > 0.0;
+    if (Y == Yielding::drucker_prager && tension) return -1.0;
+    return yield_function(c, secant(tension, c.crack_density));
+  };
+  const double tolerance = 1e-9 * elastic_.shear * norm(deviator(s.elastic_strain));
+  const double violated = excess(s);
+  if (!(violated > tolerance)) return;
+  if (!is_separated(s)) {
+    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s.crack_density), 0.0);
+    return;
   }
+
+  // Flow and traction-free faces are met in turn. Each turn brings the excess down by a nearly constant factor, which the next
+  // one anticipates: it flows as much more as relaxing the faces gave back the last time.
+  double factor = 1.0, last = violated;
+  for (int turn = 0; turn < 50 && last > tolerance; ++turn) {
+    const double amount = flow_along_deviator(s, factor * last, dissipation);
+    relax_crack(s);
+    const double value = excess(s);
+    if (!(amount > 0.0) || value <= 0.0) return;
+    factor = std::clamp(factor / (1.0 - value / last), 1.0, 4.0);
+    last = value;
+  }
+}
+
+/// Plastic strain that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the deviator. Returns |d eps_p|.
+template <bool D, Yielding Y, bool C>
+double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess, Dissipation& dissipation) const {
+  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  const SymmetricTensor d = deviator(s.elastic_strain);
+  const double size = norm(d);
+  if (!(size > 0.0)) return 0.0;
+  SymmetricTensor direction = (1.0 / size) * d;  // per unit of |d eps_p|
+  double amount = excess / (2.0 * moduli.shear);
+  if constexpr (Y == Yielding::drucker_prager) {  // with the volume change of dilatant flow
+    const double psi = drucker_prager_.dilatancy(), unit = std::sqrt(1.5 + psi * psi / 3.0);
+    direction = (std::sqrt(1.5) / unit) * direction + (psi / (3.0 * unit)) * identity();
+    amount = excess / (3.0 * moduli.shear) * unit;
+  }
+  amount = std::min(amount, size);
+  s.elastic_strain -= amount * direction;
+  s.plastic_strain += amount;
+  dissipation.plastic += amount * std::max(0.0, contract(moduli.stress(s.elastic_strain), direction));
+  return amount;
 }
 
 }  // namespace vitrum

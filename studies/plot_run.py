@@ -10,13 +10,22 @@ import pathlib
 import sys
 
 
+def is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(description="pictures of a run of vitrum")
     parser.add_argument("directory", metavar="OUTDIR", help="folder that the run left: result.h5, energy.csv, summary.json")
     parser.add_argument("--out", metavar="PICTURES_DIR", help="folder of the pictures (default: OUTDIR/pictures)")
     parser.add_argument("--times", type=float, nargs="+", metavar="T",
                         help="times of the panels, s; the nearest outputs are taken (default: six, spread over the run)")
-    return parser.parse_args(arguments)
+    # argparse takes -1.5e-5 for an option, unless a blank precedes it.
+    return parser.parse_args([f" {text}" if is_number(text) else text for text in arguments])
 
 
 def save(figure, folder, name):
@@ -52,7 +61,7 @@ def draw(options):
     save(energy_history(run), folder, "energy")
 
 
-def main(arguments=None):
+def main(arguments):
     options = parse(arguments)
     try:
         from plotting.run_results import BadInput
@@ -71,4 +80,4 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -2,42 +2,51 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-# Okabe and Ito's colours again, in an order that keeps neighbours of the stack apart.
+# Okabe and Ito's colours, in an order that keeps neighbours of the stack apart.
 shares = {"kinetic": "#0072B2", "elastic": "#56B4E9", "plastic": "#E69F00", "damage": "#009E73", "fracture": "#D55E00"}
-residual_colour = "#000000"
+beside = {"fontsize": 8, "loc": "center left", "bbox_to_anchor": (1.0, 0.5), "frameon": False}
+
+
+def _stack(axes, time, account, put_in):
+    """Where the energy is: shares on top of each other, and what is missing of, or beyond, what was put in."""
+    axes.stackplot(time, [account[name] for name in shares], colors=shares.values(), labels=shares.keys(), linewidth=0)
+    total = sum(account[name] for name in shares)
+    axes.fill_between(time, total, put_in, facecolor="none", edgecolor="black", hatch="//////", linewidth=0.0, label="residual")
+    axes.plot(time, put_in, color="black", linewidth=1.2, linestyle="--", label="initial + external work")
+    axes.set_ylim(0.0, 1.08 * max(np.max(put_in), np.max(total)))
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], **beside)
+
+
+def _lines(axes, time, account, scale):
+    """Every share by itself, six decades down from `scale`."""
+    floor = 1e-6 * scale
+
+    def line(values, **style):
+        axes.semilogy(time, np.where(values > floor, values, np.nan), **style)
+
+    for name, colour in shares.items():
+        line(account[name], color=colour, linewidth=1.6)
+    line(account["residual"], color="black", linewidth=1.0, label="residual: lost")
+    line(-account["residual"], color="black", linewidth=1.0, linestyle=":", label="residual: created")
+    axes.set_ylim(floor, 2.0 * scale)
+    axes.grid(True, which="major", linewidth=0.3, color="#CCCCCC")
+    axes.legend(**beside)
 
 
 def energy_history(run):
-    """Above, where the energy is (stacked); below, every share on a logarithmic scale."""
+    """Above the shares stacked, below each on a logarithmic scale."""
     account = run.energy
     time = 1e6 * account["time"]
-    unit = "J" if run.axisymmetric else "J/m"
-    figure, (stack, lines) = plt.subplots(2, 1, sharex=True, figsize=(7.2, 6.4), layout="constrained",
-                                          height_ratios=[1.0, 1.2])
-    stack.stackplot(time, [account[name] for name in shares], colors=shares.values(), labels=shares.keys(), linewidth=0)
     put_in = account["kinetic"][0] + account["elastic"][0] + account["external"]
-    stack.plot(time, put_in, color=residual_colour, linewidth=1.2, linestyle="--", label="initial + external work")
-    stack.set_ylim(0.0, 1.1 * max(np.max(put_in), np.max(sum(account[name] for name in shares))))
-    stack.set_ylabel(f"energy ({unit})")
-    handles, labels = stack.get_legend_handles_labels()
-    stack.legend(handles[::-1], labels[::-1], fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-
     scale = max(np.max(np.abs(put_in)), np.max(account["kinetic"]))
-    floor = 1e-6 * scale
-    for name, colour in shares.items():
-        lines.semilogy(time, np.where(account[name] > floor, account[name], np.nan), color=colour, label=name, linewidth=1.6)
-    residual = account["residual"]
-    for made, style, label in ((False, "-", "residual (lost)"), (True, ":", "residual (created)")):
-        part = np.where((residual < 0.0) == made, np.abs(residual), np.nan)
-        lines.semilogy(time, np.where(part > floor, part, np.nan), color=residual_colour, linestyle=style, linewidth=1.0,
-                       label=label)
-    lines.set_ylim(floor, 2.0 * scale)
+    figure, (stack, lines) = plt.subplots(2, 1, sharex=True, figsize=(7.2, 6.4), layout="constrained", height_ratios=[1.0, 1.2])
+    _stack(stack, time, account, put_in)
+    _lines(lines, time, account, scale)
+    for axes in (stack, lines):
+        axes.set_ylabel("energy (J)" if run.axisymmetric else "energy (J/m)")
     lines.set_xlim(time[0], time[-1])
     lines.set_xlabel("time (µs)")
-    lines.set_ylabel(f"energy ({unit})")
-    lines.grid(True, which="major", linewidth=0.3, color="#CCCCCC")
-    lines.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    worst = 100.0 * residual[-1] / scale
-    figure.suptitle(f"{run.title}\nEnergy account; residual at the end {worst:+.2f} %" if run.title else "Energy account",
-                    fontsize=10)
+    what = f"Energy account; residual at the end {100.0 * account['residual'][-1] / scale:+.2f} %".replace("-", "\u2212")
+    figure.suptitle(f"{run.title}\n{what}" if run.title else what, fontsize=10)
     return figure

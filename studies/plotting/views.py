@@ -1,4 +1,4 @@
-"""What part of the plane a picture shows. Lengths in metres unless a name says mm."""
+"""What part of the plane a picture shows. Lengths in metres."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -6,12 +6,11 @@ import numpy as np
 
 @dataclass
 class View:
-    """Limits of the axes; `exaggeration` is how much the vertical axis is stretched."""
+    """Limits of the axes."""
     left: float
     right: float
     bottom: float
     top: float
-    exaggeration: float = 1.0
 
     @property
     def width(self):
@@ -22,10 +21,9 @@ class View:
         return self.top - self.bottom
 
 
-def bulk(values, part=0.99):
+def bulk(values):
     """The range of all `values` but the few outermost: debris far away must not set the scale."""
-    values = values[np.isfinite(values)]
-    return np.quantile(values, [(1.0 - part) / 2.0, (1.0 + part) / 2.0])
+    return np.quantile(values, [0.01, 0.99])
 
 
 def focus_body(run):
@@ -35,13 +33,6 @@ def focus_body(run):
     return int(np.argmax(np.bincount(run.body[candidates], minlength=len(run.bodies))))
 
 
-def whole(run, frames, shown):
-    """All particles of `shown` (a mask), but for debris; mirrored about the axis."""
-    x = np.concatenate([frame.position[shown, 0] for frame in frames])
-    low, high = bulk(x)
-    return _padded(run, -high if run.axisymmetric else low, high, *_heights(run, frames, shown, low, high))
-
-
 def is_slender(run):
     """Whether the focus body is too flat to be seen whole at equal scales."""
     start = run.frames[0].position[run.body == focus_body(run)]
@@ -49,43 +40,65 @@ def is_slender(run):
     return size[0] * (2 if run.axisymmetric else 1) > 8.0 * size[1]
 
 
-def close_up(run, frames, shown):
-    """The middle of a slender body, as far out as it breaks, at equal scales."""
-    focus = run.body == focus_body(run)
-    low, high = bulk(run.frames[0].position[focus, 0], 1.0)
-    middle = 0.0 if run.axisymmetric else 0.5 * (low + high)
-    reach = 0.3 * (high - middle)
-    broken = focus & frames[-1].separated()
-    if np.any(broken):
-        distance = np.abs(frames[-1].position[broken, 0] - middle)
-        reach = np.clip(1.5 * np.quantile(distance, 0.98), 0.1 * (high - middle), reach)
-    return _padded(run, middle - reach, middle + reach, *_heights(run, frames, shown, middle - reach, middle + reach))
-
-
-def strip(run, frames, shown, exaggeration):
-    """The whole length of the focus body, stretched vertically; only what stays near its first place."""
+def whole(run, frames, shown):
+    """The bulk of the particles of `shown` (a mask) in all `frames`, at equal scales."""
     focus = shown & (run.body == focus_body(run))
-    view = whole(run, frames, focus)
-    thickness = np.ptp(run.frames[0].position[focus, 1]) + run.cell
-    first = bulk(run.frames[0].position[focus, 1], 1.0)
-    view.bottom, view.top = first[0] - thickness, first[1] + thickness
-    view.exaggeration = exaggeration
-    return view
+    low, high = _joint([bulk(frame.position[focus, 0]) for frame in frames])
+    reach = high - low
+    others = _joint([bulk(frame.position[shown, 0]) for frame in frames])
+    low, high = max(others[0], low - reach), min(others[1], high + reach)
+    left = -high if run.axisymmetric else low
+    places = _joint([bulk(frame.position[focus, 1]) for frame in frames])
+    return _padded(run, left, high, *_heights(run, frames, shown, (left, high), places))
 
 
-def _heights(run, frames, shown, left, right):
-    """Vertical range of the bulk of `shown` between left and right; no farther from the focus body than the view is wide."""
+def close_up(run, frames, shown):
+    """The middle of a slender body as far out as it breaks, but no more than three tenths of it; at equal scales."""
+    low, high = _extent(run, 0)
+    bottom, top = _extent(run, 1)
+    middle = 0.0 if run.axisymmetric else 0.5 * (low + high)
+    broken = frames[-1].separated() & (run.body == focus_body(run))
+    distance = np.abs(frames[-1].position[broken, 0] - middle)
+    reach = min(0.3 * (high - middle), max(12.0 * (top - bottom), 1.5 * bulk(distance)[1] if distance.size else 0.0))
+    sides = middle - reach, middle + reach
+    return _padded(run, *sides, *_heights(run, frames, shown, sides, (bottom, top)))
+
+
+def strip(run):
+    """The whole length of the focus body, and its thickness above and below its first place."""
+    low, high = _extent(run, 0)
+    bottom, top = _extent(run, 1)
+    margin = 0.02 * (high - low)
+    thickness = top - bottom
+    return View((-high if run.axisymmetric else low) - margin, high + margin, bottom - thickness, top + thickness)
+
+
+def _extent(run, axis):
+    """Both ends of the focus body at the first output."""
     focus = run.body == focus_body(run)
-    all_z, focus_z = [], []
-    for frame in frames:
-        inside = (frame.position[:, 0] >= left) & (frame.position[:, 0] <= right)
-        all_z.append(frame.position[shown & inside, 1])
-        focus_z.append(frame.position[focus & inside, 1])
-    low, high = bulk(np.concatenate(all_z))
-    focus_low, focus_high = bulk(np.concatenate(focus_z))
-    return max(low, focus_low - (right - left)), min(high, focus_high + (right - left))
+    position, half = run.frames[0].position[focus, axis], 0.5 * run.side[focus]
+    return np.min(position - half), np.max(position + half)
+
+
+def _joint(ranges):
+    return min(low for low, _ in ranges), max(high for _, high in ranges)
+
+
+def _heights(run, frames, shown, sides, focus):
+    """Vertical range of the bulk of every shown body between both sides; where that is far from the range `focus`, no
+    farther than six tenths of the width."""
+    lowest, highest = focus[0] - 0.6 * (sides[1] - sides[0]), focus[1] + 0.6 * (sides[1] - sides[0])
+    near = [focus]
+    for body in range(len(run.bodies)):
+        chosen = shown & (run.body == body)
+        for frame in frames:
+            inside = (frame.position[:, 0] >= sides[0]) & (frame.position[:, 0] <= sides[1])
+            if np.any(chosen & inside):
+                near.append(bulk(frame.position[chosen & inside, 1]))
+    low, high = _joint([(low, high) for low, high in near if low < highest and high > lowest])
+    return max(low, lowest), min(high, highest)
 
 
 def _padded(run, left, right, bottom, top):
-    margin = max(2.0 * run.cell, 0.03 * max(right - left, top - bottom))
+    margin = max(run.cell, 0.02 * max(right - left, top - bottom))
     return View(left - margin, right + margin, bottom - margin, top + margin)

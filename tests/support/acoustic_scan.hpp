@@ -7,10 +7,11 @@
 
 namespace vitrum::test {
 
-using TangentMatrix = std::array<std::array<double, 4>, 4>;  // stress <- strain, order (rr, zz, tt, rz), tensor shear
+using TangentMatrix =
+    std::array<std::array<double, 4>, 4>;  // stress <- strain, order (rr, zz, tt, rz), tensor shear
 
-/// Determinant of the in-plane 2 x 2 block of n.T.n for n = (cos angle, sin angle). The out-of-plane entry of the acoustic tensor
-/// is a positive shear modulus that only scales the full determinant.
+/// Determinant of the in-plane 2 x 2 block of n.T.n for n = (cos angle, sin angle). The out-of-plane entry of
+/// the acoustic tensor is a positive shear modulus that only scales the full determinant.
 inline double acoustic_determinant(const TangentMatrix& T, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   // A jump of the strain rate sym(n x g): the stress it makes, times n.
@@ -26,7 +27,9 @@ inline double acoustic_determinant(const TangentMatrix& T, double angle) {
 }
 
 /// n.T.n for the hoop normal, its only entry that is not a shear modulus.
-inline double hoop_acoustic(const TangentMatrix& T) { return T[2][2]; }
+inline double hoop_acoustic(const TangentMatrix& T) {
+  return T[2][2];
+}
 
 struct ScannedPlane {
   double determinant;

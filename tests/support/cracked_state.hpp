@@ -6,13 +6,15 @@
 namespace vitrum::test {
 
 /// Elastic glass with a plane that softens; no damage and no yield, so that nothing else happens.
-inline MaterialParameters cohesive_glass(double opening, double mode_ratio = 1.0, double q = 1.0, double viscosity = 0.0) {
+inline MaterialParameters cohesive_glass(double opening, double mode_ratio = 1.0, double q = 1.0,
+                                         double viscosity = 0.0) {
   MaterialParameters p = bare_glass();
   p.decohesion = DecohesionParameters{opening, q, mode_ratio, viscosity, false};
   return p;
 }
 
-/// n (x) n, and the symmetric n (x) t with n:d:t for unit shear, in components; n at `angle` from r, t = n turned by +90 degrees.
+/// n (x) n, and the symmetric n (x) t with n:d:t for unit shear, in components; n at `angle` from r, t = n
+/// turned by +90 degrees.
 inline SymmetricTensor normal_dyad(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * c, s * s, 0.0, c * s};
@@ -29,8 +31,8 @@ inline double tangential_traction(const SymmetricTensor& stress, double angle) {
 }
 
 /// A point at the onset of decohesion on the plane at `angle`: strength `strength` (Pa), stress as given.
-inline PointState at_onset(const Material& material, double angle, double strength, const SymmetricTensor& stress,
-                           double length = cell) {
+inline PointState at_onset(const Material& material, double angle, double strength,
+                           const SymmetricTensor& stress, double length = cell) {
   PointState s = material.initial_state(stress);
   s.normal_r = std::cos(angle);
   s.normal_z = std::sin(angle);

@@ -7,7 +7,8 @@
 
 namespace vitrum::test {
 
-/// Eqs. 4-8 as the paper prints them, for real and complex arguments (complex: derivatives free of cancellation).
+/// Eqs. 4-8 as the paper prints them, for real and complex arguments (complex: derivatives free of
+/// cancellation).
 struct LiteralDamage {
   double young, poisson, density, toughness, k, m;
 
@@ -58,6 +59,8 @@ struct LiteralDamage {
   }
 };
 
-inline LiteralDamage literal_glass() { return {72.0e9, 0.25, 2500.0, 0.83e6, 5.0e26, 6.0}; }
+inline LiteralDamage literal_glass() {
+  return {72.0e9, 0.25, 2500.0, 0.83e6, 5.0e26, 6.0};
+}
 
 }  // namespace vitrum::test

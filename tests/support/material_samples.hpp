@@ -15,9 +15,15 @@ inline MaterialParameters bare_glass() {
   p.elastic = {2500.0, 72.0e9, 0.25};
   return p;
 }
-inline DamageParameters glass_damage() { return {0.83e6, 5.0e26, 6.0, 1.0, 0.0}; }
-inline DecohesionParameters glass_decohesion() { return {5.0e-6, 1.0, 50.0, 0.0, false}; }
-inline DruckerPragerParameters glass_drucker_prager() { return {43.0e6, 1.8, false}; }
+inline DamageParameters glass_damage() {
+  return {0.83e6, 5.0e26, 6.0, 1.0, 0.0};
+}
+inline DecohesionParameters glass_decohesion() {
+  return {5.0e-6, 1.0, 50.0, 0.0, false};
+}
+inline DruckerPragerParameters glass_drucker_prager() {
+  return {43.0e6, 1.8, false};
+}
 
 inline MaterialParameters damaging_glass() {
   MaterialParameters p = bare_glass();
@@ -38,8 +44,12 @@ inline MaterialParameters bare_steel() {
   p.elastic = {7800.0, 195.0e9, 0.25};
   return p;
 }
-inline VonMisesParameters steel_von_mises() { return {359.0e6, 484.0e6, 9.6e9, 9.6e9}; }
-inline DecohesionParameters steel_decohesion() { return {1.6e-9, 1.0, 1.0, 0.0, false}; }
+inline VonMisesParameters steel_von_mises() {
+  return {359.0e6, 484.0e6, 9.6e9, 9.6e9};
+}
+inline DecohesionParameters steel_decohesion() {
+  return {1.6e-9, 1.0, 1.0, 0.0, false};
+}
 inline MaterialParameters flowing_steel() {
   MaterialParameters p = bare_steel();
   p.von_mises = steel_von_mises();
@@ -57,8 +67,8 @@ struct NamedMaterial {
   MaterialParameters parameters;
 };
 
-/// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not. Strengths are chosen such that
-/// every model acts at strains of about 1e-3.
+/// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not.
+/// Strengths are chosen such that every model acts at strains of about 1e-3.
 inline std::vector<NamedMaterial> all_compositions() {
   std::vector<NamedMaterial> all;
   for (const bool damage : {false, true})

@@ -18,7 +18,8 @@ struct TimedEvent {
   double time;
 };
 
-/// What following a path left behind. `work` is the integral of stress : d strain, J/m^3, by the rule of `drive`.
+/// What following a path left behind. `work` is the integral of stress : d strain, J/m^3, by the rule of
+/// `drive`.
 struct Driven {
   PointState state;
   std::vector<TimedEvent> events;
@@ -37,7 +38,8 @@ struct Driven {
 };
 
 /// Follows `path` with `steps` equal increments a segment; the trapezoidal rule gives the work.
-inline Driven drive(const Material& material, const std::vector<Segment>& path, int steps, PointState start = {}) {
+inline Driven drive(const Material& material, const std::vector<Segment>& path, int steps,
+                    PointState start = {}) {
   Driven d{start, {}, {}, 0.0, 0.0};
   double time = 0.0;
   for (const Segment& segment : path) {
@@ -66,6 +68,8 @@ inline bool is_finite(const PointState& s) {
   for (const auto member : variable_members) finite = finite && std::isfinite(s.*member);
   return finite;
 }
-inline double distance(const SymmetricTensor& a, const SymmetricTensor& b) { return norm(a - b); }
+inline double distance(const SymmetricTensor& a, const SymmetricTensor& b) {
+  return norm(a - b);
+}
 
 }  // namespace vitrum::test

@@ -18,8 +18,9 @@ TEST_CASE("a material stores only the variables of its models", "[material][comp
     CHECK(stored.count(Variable::crack_density) == (p.damage ? 1U : 0U));
     CHECK(stored.count(Variable::max_rate) == (p.damage ? 1U : 0U));
     CHECK(stored.count(Variable::plastic_strain) == (yields ? 1U : 0U));
-    for (const Variable v : {Variable::decohesion, Variable::opening_n, Variable::opening_t, Variable::normal_r,
-                             Variable::normal_z, Variable::effective_length, Variable::cohesive_strength})
+    for (const Variable v :
+         {Variable::decohesion, Variable::opening_n, Variable::opening_t, Variable::normal_r,
+          Variable::normal_z, Variable::effective_length, Variable::cohesive_strength})
       CHECK(stored.count(v) == (p.decohesion ? 1U : 0U));
     CHECK(stored.count(Variable::dissipated) == (p.damage || yields || p.decohesion ? 1U : 0U));
   }

@@ -10,7 +10,9 @@ using namespace vitrum::test;
 namespace {
 constexpr SymmetricTensor uniaxial{1.0, 0.0, 0.0, 0.0};
 /// A segment of uniaxial strain at mean strain rate `rate`.
-Segment stretch(double strain, double rate) { return {strain * uniaxial, std::abs(strain) / (3.0 * rate)}; }
+Segment stretch(double strain, double rate) {
+  return {strain * uniaxial, std::abs(strain) / (3.0 * rate)};
+}
 double crack_density_of(double strain, double rate) {
   return literal_glass().coefficient(rate) * std::pow(strain / 3.0, 6.0);
 }
@@ -71,7 +73,8 @@ TEST_CASE("unloading is secant with the crack density frozen", "[material][damag
     const double share = random.uniform(0.1, 0.9);
     const Driven unloaded = drive(*glass, {{-share * e, 1e-7}}, 3, loaded.state);
     REQUIRE(unloaded.state.crack_density == loaded.state.crack_density);
-    REQUIRE(distance(unloaded.state.stress, (1.0 - share) * loaded.state.stress) < 1e-9 * norm(loaded.state.stress));
+    REQUIRE(distance(unloaded.state.stress, (1.0 - share) * loaded.state.stress) <
+            1e-9 * norm(loaded.state.stress));
     REQUIRE(unloaded.dissipation.total() == 0.0);
     const Driven reloaded = drive(*glass, {{share * (1.0 - 1e-12) * e, 1e-3}}, 2, unloaded.state);
     REQUIRE(reloaded.state.crack_density == loaded.state.crack_density);
@@ -107,7 +110,8 @@ TEST_CASE("damage is frozen after localisation", "[material][damage][decohesion]
   const Driven past = drive(*glass, {stretch(3.0e-2, 1.0e6)}, 1);
   REQUIRE(is_localised(past.state));
   CHECK(past.state.crack_density == Approx(0.118315 * crack_density_limit).epsilon(1e-5));
-  const Driven later = drive(*glass, {{{-2.0e-2, 1.0e-2, 4.0e-2, 1.0e-2}, 1e-7}, stretch(0.1, 1.0e5)}, 7, past.state);
+  const Driven later =
+      drive(*glass, {{{-2.0e-2, 1.0e-2, 4.0e-2, 1.0e-2}, 1e-7}, stretch(0.1, 1.0e5)}, 7, past.state);
   CHECK(later.state.crack_density == past.state.crack_density);
   CHECK(later.dissipation.damage == 0.0);
 }
@@ -129,5 +133,20 @@ TEST_CASE("work = stored energy + dissipation of growing damage", "[material][da
     REQUIRE(fine.least_dissipation >= 0.0);
     const Driven coarse = drive(*glass, path, 1);
     REQUIRE(coarse.dissipation.total() == Approx(fine.dissipation.total()).epsilon(2e-4).margin(1e-9));
+  }
+}
+
+TEST_CASE("an initial tension is damaged at once, and the energy is booked", "[material][damage][energy]") {
+  const auto glass = make_material(damaging_glass(), cell);
+  for (const double stress : {3.0e6, 5.0e6, 50.0e6}) {
+    const PointState start = glass->initial_state(stress * identity());
+    PointState s = start;
+    PointReport report;
+    glass->respond(s, 1e-15 * identity(), 1e-9, report);
+    CAPTURE(stress);
+    const double target = literal_glass().coefficient(1.0) * std::pow(stress / (3.0 * 48.0e9), 6.0);
+    CHECK(s.crack_density == Approx(std::min(9.0 / 16.0, target)).epsilon(1e-6));
+    CHECK(report.dissipation.damage ==
+          Approx(glass->stored_energy(start) - glass->stored_energy(s)).epsilon(1e-6));
   }
 }

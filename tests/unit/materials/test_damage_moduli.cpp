@@ -7,7 +7,9 @@ using namespace vitrum;
 using namespace vitrum::test;
 
 namespace {
-DamageLaw glass_law(double poisson = 0.25) { return DamageLaw(glass_damage(), {2500.0, 72.0e9, poisson}); }
+DamageLaw glass_law(double poisson = 0.25) {
+  return DamageLaw(glass_damage(), {2500.0, 72.0e9, poisson});
+}
 }  // namespace
 
 TEST_CASE("damaged moduli are eqs. 5, 6 and 8 as printed", "[material][damage]") {
@@ -59,7 +61,8 @@ TEST_CASE("derivatives of the damaged moduli against finite differences", "[mate
   }
 }
 
-TEST_CASE("the shear modulus falls monotonically up to nu = 0.3 but not from nu = 0.4 on", "[material][damage]") {
+TEST_CASE("the shear modulus falls monotonically up to nu = 0.3 but not from nu = 0.4 on",
+          "[material][damage]") {
   const auto rises_somewhere = [](double poisson) {
     const DamageLaw law = glass_law(poisson);
     double before = law.moduli(0.0).shear;

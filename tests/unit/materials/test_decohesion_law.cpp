@@ -7,13 +7,14 @@ using namespace vitrum::test;
 
 namespace {
 
-/// Length of the chord that the line through the centre of a square of side 1 cuts off, by bisection along the line.
+/// Length of the chord that the line through the centre of a square of side 1 cuts off, by bisection along
+/// the line.
 double chord_through_centre(double angle_of_line) {
   double low = 0.0, high = 2.0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    const bool inside =
-        std::abs(middle * std::cos(angle_of_line)) <= 0.5 && std::abs(middle * std::sin(angle_of_line)) <= 0.5;
+    const bool inside = std::abs(middle * std::cos(angle_of_line)) <= 0.5 &&
+                        std::abs(middle * std::sin(angle_of_line)) <= 0.5;
     (inside ? low : high) = middle;
   }
   return 2.0 * low;
@@ -43,7 +44,9 @@ TEST_CASE("parts of a tensor on a plane, and the strain of a jump", "[material][
     // sym(n x u)/L does work tau.u/L on any stress.
     const double un = random.uniform(-1.0, 1.0), ut = random.uniform(-1.0, 1.0);
     const double work = contract(a, plane.jump_strain(un, ut, 0.5));
-    REQUIRE(work == Approx((normal_traction(a, angle) * un + tangential_traction(a, angle) * ut) / 0.5).margin(1e-13));
+    REQUIRE(
+        work ==
+        Approx((normal_traction(a, angle) * un + tangential_traction(a, angle) * ut) / 0.5).margin(1e-13));
   }
   const DecohesionPlane hoop{0.0, 0.0};
   CHECK(hoop.jump_strain(1.0, 5.0, 0.5) == SymmetricTensor{0.0, 0.0, 2.0, 0.0});
@@ -74,7 +77,8 @@ TEST_CASE("surface energy is the integral of eq. 13", "[material][decohesion]") 
     DecohesionParameters p = glass_decohesion();
     p.q = q;
     const DecohesionLaw law(p);
-    CHECK(law.surface_energy(0.0, 1.0, 1.0e8) == Approx(500.0 * q / (q + 1.0)).epsilon(1e-13));  // U0 = 500 J/m^2
+    CHECK(law.surface_energy(0.0, 1.0, 1.0e8) ==
+          Approx(500.0 * q / (q + 1.0)).epsilon(1e-13));  // U0 = 500 J/m^2
     CHECK(law.strength(0.0, 1.0e8) == 1.0e8);
     CHECK(law.strength(1.0, 1.0e8) == 0.0);
     for (int i = 0; i < 20; ++i) {
@@ -82,7 +86,8 @@ TEST_CASE("surface energy is the integral of eq. 13", "[material][decohesion]") 
       const double whole = law.surface_energy(a, b, 1.0e8);
       REQUIRE(whole >= 0.0);
       REQUIRE(law.surface_energy(a, middle, 1.0e8) + law.surface_energy(middle, b, 1.0e8) == Approx(whole));
-      REQUIRE(law.surface_energy(a, a + 1e-6, 1.0e8) == Approx(5.0e-6 * 1e-6 * law.strength(a + 5e-7, 1.0e8)).epsilon(1e-5));
+      REQUIRE(law.surface_energy(a, a + 1e-6, 1.0e8) ==
+              Approx(5.0e-6 * 1e-6 * law.strength(a + 5e-7, 1.0e8)).epsilon(1e-5));
     }
   }
 }

@@ -26,7 +26,8 @@ void check_parameters() {
 
 }  // namespace
 
-TEST_CASE("every parameter has a name, a unit, a description and bounds around its default", "[material][description]") {
+TEST_CASE("every parameter has a name, a unit, a description and bounds around its default",
+          "[material][description]") {
   check_parameters<ElasticParameters>();
   check_parameters<DamageParameters>();
   check_parameters<DruckerPragerParameters>();

@@ -16,23 +16,28 @@ MaterialParameters crushable_glass(bool associated) {
   p.drucker_prager->associated = associated;
   return p;
 }
-double pressure(const SymmetricTensor& stress) { return -trace(stress) / 3.0; }
+double pressure(const SymmetricTensor& stress) {
+  return -trace(stress) / 3.0;
+}
 double effective_stress(const SymmetricTensor& stress) {
   const SymmetricTensor s = deviator(stress);
   return std::sqrt(1.5 * contract(s, s));
 }
-double yield_function(const SymmetricTensor& stress) { return effective_stress(stress) - yield - beta * pressure(stress); }
+double yield_function(const SymmetricTensor& stress) {
+  return effective_stress(stress) - yield - beta * pressure(stress);
+}
 
 }  // namespace
 
-TEST_CASE("Drucker-Prager returns to the surface to 1e-12 and obeys its flow rule", "[material][drucker_prager]") {
+TEST_CASE("Drucker-Prager returns to the surface to 1e-12 and obeys its flow rule",
+          "[material][drucker_prager]") {
   Random random(40);
   for (const bool associated : {false, true}) {
     const auto glass = make_material(crushable_glass(associated), cell);
     int flowed = 0;
     for (int i = 0; i < 5000; ++i) {
-      const SymmetricTensor strain =
-          random.uniform(1e-3, 1e-2) * random.deviatoric_direction() - random.uniform(1e-6, 1e-3) * identity();
+      const SymmetricTensor strain = random.uniform(1e-3, 1e-2) * random.deviatoric_direction() -
+                                     random.uniform(1e-6, 1e-3) * identity();
       PointState s;
       PointReport report;
       glass->respond(s, strain, 1e-7, report);
@@ -65,8 +70,8 @@ TEST_CASE("proportional deviators under pressure are exact in one increment", "[
   for (const bool associated : {false, true}) {
     const auto glass = make_material(crushable_glass(associated), cell);
     for (int i = 0; i < 100; ++i) {
-      const SymmetricTensor strain =
-          random.uniform(5e-3, 1e-2) * random.deviatoric_direction() - random.uniform(1e-4, 1e-3) * identity();
+      const SymmetricTensor strain = random.uniform(5e-3, 1e-2) * random.deviatoric_direction() -
+                                     random.uniform(1e-4, 1e-3) * identity();
       const Driven one = drive(*glass, {{strain, 1e-6}}, 1), many = drive(*glass, {{strain, 1e-6}}, 500);
       CAPTURE(associated, strain.rr, strain.zz, strain.tt, strain.rz);
       REQUIRE(one.state.plastic_strain > 0.0);
@@ -94,7 +99,8 @@ TEST_CASE("there is no plastic flow under tension", "[material][drucker_prager]"
     for (const int steps : {1, 10, 1000}) {
       const Driven pressed = drive(*glass, {{-2e-5 * identity(), 1e-6}}, steps, stretched.state);
       CAPTURE(steps);
-      // At P = 0 the effective stress falls from q0 to sigma_y at constant strain; then pressure lifts the strength above it.
+      // At P = 0 the effective stress falls from q0 to sigma_y at constant strain; then pressure lifts the
+      // strength above it.
       CHECK(effective_stress(pressed.state.stress) == Approx(yield).epsilon(1e-11));
       CHECK(pressed.count(EventKind::yield) == 1);
       CHECK(pressed.time_of(EventKind::yield) == Approx(0.5e-6).epsilon(1e-9));
@@ -132,7 +138,8 @@ TEST_CASE("work = stored energy + dissipation in Drucker-Prager flow", "[materia
       const Driven d = drive(*glass, path, 20000);
       CAPTURE(associated, i);
       const double balance = d.work - glass->stored_energy(d.state) - d.dissipation.plastic;
-      // A violation released at zero pressure falls inside one increment, which the work integral sees at first order.
+      // A violation released at zero pressure falls inside one increment, which the work integral sees at
+      // first order.
       REQUIRE(std::abs(balance) < 1e-3 * (glass->stored_energy(d.state) + d.dissipation.plastic));
       REQUIRE(d.least_dissipation >= 0.0);
     }

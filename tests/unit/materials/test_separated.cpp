@@ -19,7 +19,8 @@ PointState separated(const Material& material, double angle) {
 
 }  // namespace
 
-TEST_CASE("an open crack carries no traction, a closed one only pressure", "[material][decohesion][contact]") {
+TEST_CASE("an open crack carries no traction, a closed one only pressure",
+          "[material][decohesion][contact]") {
   const auto glass = make_material(cohesive_glass(5.0e-6), cell);
   Random random(90);
   for (int i = 0; i < 100; ++i) {
@@ -62,7 +63,22 @@ TEST_CASE("a crack closes where its gap is used up, and opens again", "[material
   }
 }
 
-TEST_CASE("a separated point is elastic: the work of a closed strain cycle is nothing", "[material][decohesion][contact]") {
+TEST_CASE("faces slide without resistance, open or closed", "[material][decohesion][contact]") {
+  const auto glass = make_material(cohesive_glass(5.0e-6), cell);
+  for (const double normal : {-1e-3, 1e-3}) {
+    const double angle = 0.7,
+                 shear = 2e-4;  // sym(n x t) shear: the jump is twice the tensor shear times the length
+    const Driven d = drive(*glass, {{normal * normal_dyad(angle) + 2.0 * shear * shear_dyad(angle), 1.0}}, 3,
+                           separated(*glass, angle));
+    CAPTURE(normal);
+    CHECK(d.state.opening_t == Approx(2.0 * shear * cell).epsilon(1e-9));
+    CHECK(d.state.opening_n == Approx(std::max(normal, 0.0) * cell).epsilon(1e-9).margin(1e-18));
+    CHECK(std::abs(tangential_traction(d.state.stress, angle)) < 1.0);
+  }
+}
+
+TEST_CASE("a separated point is elastic: the work of a closed strain cycle is nothing",
+          "[material][decohesion][contact]") {
   const auto glass = make_material(cohesive_glass(5.0e-6), cell);
   Random random(92);
   for (int i = 0; i < 10; ++i) {

@@ -10,11 +10,14 @@ using namespace vitrum::test;
 
 namespace {
 
-Eigen::Vector4d vector(const SymmetricTensor& a) { return {a.rr, a.zz, a.tt, a.rz}; }
+Eigen::Vector4d vector(const SymmetricTensor& a) {
+  return {a.rr, a.zz, a.tt, a.rz};
+}
 
-/// d(stress) along `direction` from a loading state, by one-sided differences with one Richardson extrapolation.
-Eigen::Vector4d stress_rate(const Material& material, const PointState& at, const SymmetricTensor& direction, double h,
-                            double rate) {
+/// d(stress) along `direction` from a loading state, by one-sided differences with one Richardson
+/// extrapolation.
+Eigen::Vector4d stress_rate(const Material& material, const PointState& at, const SymmetricTensor& direction,
+                            double h, double rate) {
   const auto stress_after = [&](double step) {
     PointState s = at;
     PointReport report;
@@ -23,7 +26,8 @@ Eigen::Vector4d stress_rate(const Material& material, const PointState& at, cons
     return vector(s.stress);
   };
   const Eigen::Vector4d start = vector(at.stress);
-  const Eigen::Vector4d once = (stress_after(h) - start) / h, half = (stress_after(0.5 * h) - start) / (0.5 * h);
+  const Eigen::Vector4d once = (stress_after(h) - start) / h,
+                        half = (stress_after(0.5 * h) - start) / (0.5 * h);
   const Eigen::Vector4d quarter = (stress_after(0.25 * h) - start) / (0.25 * h);
   const Eigen::Vector4d a = 2.0 * half - once, b = 2.0 * quarter - half;
   return (4.0 * b - a) / 3.0;
@@ -57,7 +61,8 @@ TEST_CASE("damage tangent against the literal law and against the response", "[m
     const auto literal = literal_glass().tangent(e, C);
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c)
-        REQUIRE(std::abs(T(r, c) - literal[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]) < 1e-10 * T.norm());
+        REQUIRE(std::abs(T(r, c) - literal[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]) <
+                1e-10 * T.norm());
 
     const Driven at = drive(*glass, {{e, mean / rate}}, 1);
     SymmetricTensor loading = random.direction();
@@ -76,7 +81,8 @@ TEST_CASE("von Mises tangent against the response", "[material][tangent][von_mis
   Random random(52);
   for (int i = 0; i < 300; ++i) {
     const SymmetricTensor n = random.deviatoric_direction();
-    const Driven at = drive(*steel, {{random.uniform(2.5e-3, 0.03) * n + random.uniform(-1e-3, 1e-3) * identity(), 1.0}}, 1);
+    const Driven at = drive(
+        *steel, {{random.uniform(2.5e-3, 0.03) * n + random.uniform(-1e-3, 1e-3) * identity(), 1.0}}, 1);
     const double distance_to_kink = std::abs(at.state.plastic_strain - law.peak_strain());
     if (at.state.plastic_strain == 0.0 || distance_to_kink < 1e-5) continue;
     SymmetricTensor loading = random.direction();
@@ -101,7 +107,8 @@ TEST_CASE("Drucker-Prager tangent against the response", "[material][tangent][dr
     const auto glass = make_material(p, cell);
     int compared = 0;
     for (int i = 0; i < 400; ++i) {
-      const SymmetricTensor strain = random.uniform(5e-3, 1e-2) * random.deviatoric_direction() - 1e-3 * identity();
+      const SymmetricTensor strain =
+          random.uniform(5e-3, 1e-2) * random.deviatoric_direction() - 1e-3 * identity();
       const Driven at = drive(*glass, {{strain, 1.0}}, 1);
       if (at.state.plastic_strain == 0.0) continue;
       const Tangent T = drucker_prager_tangent(*p.drucker_prager, moduli, at.state.stress);

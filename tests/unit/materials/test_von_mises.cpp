@@ -20,7 +20,8 @@ struct Proportional {
   double deviator;  // |s|
   double plastic;   // I
 };
-/// |s| and I when the deviatoric strain grows from zero along one direction up to `size`: piecewise linear, branch by branch.
+/// |s| and I when the deviatoric strain grows from zero along one direction up to `size`: piecewise linear,
+/// branch by branch.
 Proportional proportional_answer(const VonMisesParameters& p, double size) {
   const double peak = (p.peak - p.yield) / p.hardening, last = peak + 0.999 * p.peak / p.softening;
   double left = size - root * p.yield / (2.0 * G);
@@ -112,7 +113,8 @@ TEST_CASE("yield and peak are located inside the increment", "[material][von_mis
   }
 }
 
-TEST_CASE("unloading and reloading are elastic, and yield is announced again", "[material][von_mises][events]") {
+TEST_CASE("unloading and reloading are elastic, and yield is announced again",
+          "[material][von_mises][events]") {
   const auto steel = make_material(flowing_steel(), cell);
   const SymmetricTensor e{0.01, -0.005, -0.005, 0.0};
   const Driven loaded = drive(*steel, {{e, 1.0}}, 3);
@@ -132,10 +134,12 @@ TEST_CASE("work = stored energy + plastic dissipation", "[material][von_mises]")
   const Driven d = drive(*steel, {{e, 1.0}}, 20000);
   const double balance = d.work - steel->stored_energy(d.state) - d.dissipation.plastic;
   CHECK(std::abs(balance) < 1e-6 * d.work);
-  CHECK(drive(*steel, {{deviator(e), 1.0}}, 1).dissipation.plastic == Approx(d.dissipation.plastic).epsilon(1e-11));
+  CHECK(drive(*steel, {{deviator(e), 1.0}}, 1).dissipation.plastic ==
+        Approx(d.dissipation.plastic).epsilon(1e-11));
 }
 
-TEST_CASE("softening faster than elasticity can follow releases all at once and books the energy", "[material][von_mises]") {
+TEST_CASE("softening faster than elasticity can follow releases all at once and books the energy",
+          "[material][von_mises]") {
   MaterialParameters p = flowing_steel();
   p.von_mises->softening = 1.0e13;
   const auto steel = make_material(p, cell);

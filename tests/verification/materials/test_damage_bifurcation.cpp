@@ -17,7 +17,8 @@ struct Plane {
   std::optional<double> angle;  // none: hoop
 };
 
-/// Scans det(n.T.n) of the literal law along a proportional path at constant rate; the path is described by x.
+/// Scans det(n.T.n) of the literal law along a proportional path at constant rate; the path is described by
+/// x.
 std::optional<Plane> brute_force_onset(const SymmetricTensor& direction, double rate, bool all_planes) {
   const LiteralDamage literal = literal_glass();
   const double C = literal.coefficient(rate);
@@ -78,7 +79,8 @@ Tally compare(int states, bool all_planes, std::uint64_t seed) {
     ++tally.localised;
     const double x = driven.state.crack_density / crack_density_limit;
     tally.worst_x = std::max(tally.worst_x, std::abs(x - expected->x));
-    tally.largest_damage = std::max(tally.largest_damage, literal_glass().moduli(driven.state.crack_density).damage);
+    tally.largest_damage =
+        std::max(tally.largest_damage, literal_glass().moduli(driven.state.crack_density).damage);
     const bool hoop = driven.state.normal_r == 0.0 && driven.state.normal_z == 0.0;
     const InPlanePrincipal p = in_plane_principal(direction);
     if (all_planes && std::abs(p.major - direction.tt) < 1e-4) continue;  // either plane will do
@@ -112,7 +114,8 @@ TEST_CASE("onset and plane of localisation against a scan of det(n.T.n), hoop no
   CHECK(tally.largest_damage <= 0.27213);
 }
 
-TEST_CASE("a dominant hoop strain keeps in-plane normals from localising", "[material][damage][bifurcation]") {
+TEST_CASE("a dominant hoop strain keeps in-plane normals from localising",
+          "[material][damage][bifurcation]") {
   const auto glass = make_material(fracturing_glass(false), cell);
   // Largest in-plane strain over the trace: localises above -0.2173.
   for (const double ratio : {-0.2175, -0.30, -1.0}) {
@@ -125,7 +128,8 @@ TEST_CASE("a dominant hoop strain keeps in-plane normals from localising", "[mat
   CHECK(is_localised(drive(*glass, {{1e-2 * e, 1e-6}}, 1).state));
 }
 
-TEST_CASE("plane and crack density at localisation do not depend on the rate", "[material][damage][bifurcation]") {
+TEST_CASE("plane and crack density at localisation do not depend on the rate",
+          "[material][damage][bifurcation]") {
   const auto glass = make_material(fracturing_glass(false), cell);
   const SymmetricTensor direction{0.8, 0.2, -0.1, 0.35};
   const Driven reference = drive(*glass, {{3e-3 * direction, 3e-3}}, 1);

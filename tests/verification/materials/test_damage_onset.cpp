@@ -11,7 +11,7 @@ namespace {
 struct Onset {
   double x, damage, strain, stress;  // at rate 1/s
   SymmetricTensor direction;
-  double mean_rate_factor;           // mean strain per unit of `strain`
+  double mean_rate_factor;  // mean strain per unit of `strain`
 };
 const Onset uniaxial{0.118315, 0.201315, 1.471237e-4, 10.808642e6, {1.0, 0.0, 0.0, 0.0}, 1.0 / 3.0};
 const Onset hydrostatic{0.165842, 0.272129, 5.188045e-5, 5.437771e6, {1.0, 1.0, 1.0, 0.0}, 1.0};
@@ -20,7 +20,8 @@ struct Localised {
   PointState state;
   double strain;
 };
-/// Stretches to three times the onset strain in one increment, with an opening so large that the plane stays closed at first.
+/// Stretches to three times the onset strain in one increment, with an opening so large that the plane stays
+/// closed at first.
 Localised stretch_to_localisation(const Onset& onset, double rate, bool all_planes) {
   const auto glass = make_material(fracturing_glass(all_planes), cell);
   const double end = 3.0 * onset.strain * std::cbrt(rate);

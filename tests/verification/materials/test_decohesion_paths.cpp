@@ -11,7 +11,8 @@ namespace {
 constexpr double M = 86.4e9, G = 28.8e9;  // undamaged glass
 }
 
-TEST_CASE("mode I follows sigma = tau0 [1 - (eps - eps0)/(u0/L_e - tau0/M)] on any plane", "[material][decohesion]") {
+TEST_CASE("mode I follows sigma = tau0 [1 - (eps - eps0)/(u0/L_e - tau0/M)] on any plane",
+          "[material][decohesion]") {
   Random random(70);
   const double opening = 5.0e-6;
   const auto glass = make_material(cohesive_glass(opening, 50.0), cell);
@@ -20,7 +21,8 @@ TEST_CASE("mode I follows sigma = tau0 [1 - (eps - eps0)/(u0/L_e - tau0/M)] on a
     const double length = random.uniform(0.5e-3, 1.0e-3);
     const double range = opening / length - strength / M;  // strain from onset to separation
     const SymmetricTensor stretch = normal_dyad(angle);
-    const PointState onset = at_onset(*glass, angle, strength, strength / M * Moduli{48e9, G}.stress(stretch), length);
+    const PointState onset =
+        at_onset(*glass, angle, strength, strength / M * Moduli{48e9, G}.stress(stretch), length);
     const double share = random.uniform(0.05, 0.95);
     const int steps = random.integer(1, 30);
     CAPTURE(angle, strength, length, share, steps);
@@ -49,8 +51,8 @@ TEST_CASE("a stable softening dissipates U0/2 whatever the mode", "[material][de
     const SymmetricTensor stress = tau_n * normal_dyad(angle) + 2.0 * tau_t * shear_dyad(angle);
     const PointState onset = at_onset(*glass, angle, strength, stress);
     const double turn = mode + random.uniform(-0.3, 0.3);
-    const SymmetricTensor strain = 0.4 * (std::abs(std::cos(turn)) * normal_dyad(angle) +
-                                          2.0 * std::sin(turn) * shear_dyad(angle));
+    const SymmetricTensor strain =
+        0.4 * (std::abs(std::cos(turn)) * normal_dyad(angle) + 2.0 * std::sin(turn) * shear_dyad(angle));
     for (const int steps : {1, 2000}) {
       const Driven d = drive(*glass, {{strain, 1.0}}, steps, onset);
       CAPTURE(mode_ratio, angle, mode, turn, steps);
@@ -58,7 +60,8 @@ TEST_CASE("a stable softening dissipates U0/2 whatever the mode", "[material][de
       REQUIRE(d.dissipation.fracture == Approx(0.5 * opening * strength / cell).epsilon(1e-3));
       if (steps > 1) {
         const double stored = glass->stored_energy(d.state) - glass->stored_energy(onset);
-        REQUIRE(d.work - stored - d.dissipation.fracture == Approx(0.0).margin(2e-3 * d.dissipation.fracture));
+        REQUIRE(d.work - stored - d.dissipation.fracture ==
+                Approx(0.0).margin(2e-3 * d.dissipation.fracture));
       }
     }
   }
@@ -76,12 +79,14 @@ TEST_CASE("other exponents q of eq. 13 in mode I", "[material][decohesion]") {
         const Driven d = drive(*glass, {{strain * stretch, 1.0}}, steps, onset);
         CAPTURE(q, lambda, steps);
         CHECK(d.state.decohesion == Approx(lambda).epsilon(1e-8));
-        CHECK(normal_traction(d.state.stress, 0.4) == Approx(strength * (1.0 - std::pow(lambda, q))).epsilon(1e-8));
+        CHECK(normal_traction(d.state.stress, 0.4) ==
+              Approx(strength * (1.0 - std::pow(lambda, q))).epsilon(1e-8));
       }
     const Driven whole = drive(*glass, {{0.1 * stretch, 1.0}}, 1, onset);
     CHECK(is_separated(whole.state));
     // For q < 1 eq. 13 falls vertically at lambda = 0: a short snap-back adds to U0 q/(q + 1).
-    if (q >= 1.0) CHECK(whole.dissipation.fracture == Approx(strength * opening / cell * q / (q + 1.0)).epsilon(1e-8));
+    if (q >= 1.0)
+      CHECK(whole.dissipation.fracture == Approx(strength * opening / cell * q / (q + 1.0)).epsilon(1e-8));
   }
 }
 

@@ -12,14 +12,16 @@ std::vector<Segment> random_path(Random& random, int segments, double largest) {
   std::vector<Segment> path;
   for (int k = 0; k < segments; ++k) {
     const double size = random.logarithmic(0.02 * largest, largest);
-    path.push_back({random.tensor(size) + random.uniform(-0.7, 0.7) * size * identity(), random.logarithmic(1e-8, 1e-5)});
+    path.push_back({random.tensor(size) + random.uniform(-0.7, 0.7) * size * identity(),
+                    random.logarithmic(1e-8, 1e-5)});
   }
   return path;
 }
 
 }  // namespace
 
-TEST_CASE("every composition on random paths: finite, within bounds, never negative dissipation", "[material][property]") {
+TEST_CASE("every composition on random paths: finite, within bounds, never negative dissipation",
+          "[material][property]") {
   for (const NamedMaterial& named : all_compositions())
     for (const bool associated : {false, true}) {
       MaterialParameters p = named.parameters;
@@ -50,7 +52,8 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
             REQUIRE(s.decohesion >= before.decohesion);
             REQUIRE(s.max_rate >= before.max_rate);
             REQUIRE((material->damage(s) >= 0.0 && material->damage(s) <= 1.0));
-            REQUIRE(distance(s.stress, material->secant_moduli(s).stress(s.elastic_strain)) <= 1e-12 * norm(s.stress));
+            REQUIRE(distance(s.stress, material->secant_moduli(s).stress(s.elastic_strain)) <=
+                    1e-12 * norm(s.stress));
             for (std::size_t e = 0; e < report.event_count; ++e) {
               REQUIRE(report.events[e].fraction >= 0.0);
               REQUIRE(report.events[e].fraction <= 1.0);
@@ -66,7 +69,8 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
     }
 }
 
-TEST_CASE("every composition on random paths: work = stored + dissipated when refined", "[material][property][energy]") {
+TEST_CASE("every composition on random paths: work = stored + dissipated when refined",
+          "[material][property][energy]") {
   for (const NamedMaterial& named : all_compositions())
     for (const bool associated : {false, true}) {
       MaterialParameters p = named.parameters;

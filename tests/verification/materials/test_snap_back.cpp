@@ -13,9 +13,11 @@ struct Balance {
   double lost;  // work - stored - dissipated, J/m^3
 };
 
-Balance follow_balance(const Material& material, const PointState& onset, const SymmetricTensor& strain, int steps) {
+Balance follow_balance(const Material& material, const PointState& onset, const SymmetricTensor& strain,
+                       int steps) {
   const Driven d = drive(material, {{strain, 1.0}}, steps, onset);
-  return {d, d.work - (material.stored_energy(d.state) - material.stored_energy(onset)) - d.dissipation.total()};
+  return {d,
+          d.work - (material.stored_energy(d.state) - material.stored_energy(onset)) - d.dissipation.total()};
 }
 
 }  // namespace
@@ -47,7 +49,8 @@ TEST_CASE("a release at once loses no energy", "[material][decohesion][energy]")
   }
 }
 
-TEST_CASE("softening that turns into a snap-back on its way loses no energy", "[material][decohesion][energy]") {
+TEST_CASE("softening that turns into a snap-back on its way loses no energy",
+          "[material][decohesion][energy]") {
   Random random(81);
   int snapped = 0;
   for (int i = 0; i < 40; ++i) {
@@ -58,7 +61,8 @@ TEST_CASE("softening that turns into a snap-back on its way loses no energy", "[
     const double normal = std::sqrt(strength * strength - shear * shear / 2500.0);
     const SymmetricTensor stress = normal * normal_dyad(angle) + 2.0 * shear * shear_dyad(angle);
     const PointState onset = at_onset(*glass, angle, strength, stress);
-    const SymmetricTensor strain = 8e-3 * normal_dyad(angle) + random.uniform(-2e-3, 2e-3) * shear_dyad(angle);
+    const SymmetricTensor strain =
+        8e-3 * normal_dyad(angle) + random.uniform(-2e-3, 2e-3) * shear_dyad(angle);
     const Balance fine = follow_balance(*glass, onset, strain, 20000);
     CAPTURE(i, strength, shear);
     REQUIRE(is_separated(fine.driven.state));
@@ -76,9 +80,11 @@ TEST_CASE("exponents that snap back only at the end or only at the start lose no
   const SymmetricTensor stretch = normal_dyad(0.4);
   for (const double q : {0.5, 5.0})
     for (const int steps : {1, 10, 20000}) {
-      const double opening = q < 1.0 ? 5.0e-5 : 1.2e-6;  // q = 5: stable until 5 lambda^4 = M u0/(L tau0) = 2.07
+      const double opening =
+          q < 1.0 ? 5.0e-5 : 1.2e-6;  // q = 5: stable until 5 lambda^4 = M u0/(L tau0) = 2.07
       const auto glass = make_material(cohesive_glass(opening, 50.0, q), cell);
-      const PointState onset = at_onset(*glass, 0.4, strength, strength / M * Moduli{48e9, 28.8e9}.stress(stretch));
+      const PointState onset =
+          at_onset(*glass, 0.4, strength, strength / M * Moduli{48e9, 28.8e9}.stress(stretch));
       const Balance b = follow_balance(*glass, onset, (1.5 * opening / cell) * stretch, steps);
       CAPTURE(q, steps);
       REQUIRE(is_separated(b.driven.state));
@@ -88,7 +94,9 @@ TEST_CASE("exponents that snap back only at the end or only at the start lose no
       if (q < 1.0) {
         const double jump = 1.0 / (k * k);  // sqrt(lambda) = 1/k closes the first fall
         // After it: integral of (1 - sqrt(l)) d(k l - sqrt(l)).
-        const auto primitive = [&](double l) { return k * l - std::sqrt(l) - k * l * std::sqrt(l) * 2.0 / 3.0 + 0.5 * l; };
+        const auto primitive = [&](double l) {
+          return k * l - std::sqrt(l) - k * l * std::sqrt(l) * 2.0 / 3.0 + 0.5 * l;
+        };
         area = primitive(1.0) - primitive(jump);
       } else {
         const double turn = std::pow(k / 5.0, 0.25);  // d(k l - l^5) = 0

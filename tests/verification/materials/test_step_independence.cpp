@@ -11,12 +11,13 @@ namespace {
 /// What is known at the instant of localisation.
 struct Onset {
   double time = -1.0;
-  PointState state;   // just before
-  PointState after;   // at the end of the path: the fields that localisation fixes
+  PointState state;  // just before
+  PointState after;  // at the end of the path: the fields that localisation fixes
   double damage = 0.0;
 };
 
-Onset onset_of(const Material& material, const std::vector<Segment>& path, int steps, const PointState& start) {
+Onset onset_of(const Material& material, const std::vector<Segment>& path, int steps,
+               const PointState& start) {
   const Driven whole = drive(material, path, steps, start);
   Onset onset;
   onset.after = whole.state;
@@ -62,7 +63,8 @@ int compare_steps(const Material& material, const std::vector<Segment>& path, co
 
 }  // namespace
 
-TEST_CASE("localisation does not depend on the step: straight paths of glass", "[material][damage][step-independence]") {
+TEST_CASE("localisation does not depend on the step: straight paths of glass",
+          "[material][damage][step-independence]") {
   Random random(100);
   for (const bool all : {false, true}) {
     const auto glass = make_material(fracturing_glass(all), cell);
@@ -110,9 +112,10 @@ TEST_CASE("localisation is not missed where damage resumes and the strain turns 
     const double back = random.uniform(0.02, 0.2) * mean, shear = random.logarithmic(1e-4, 3e-3);
     const SymmetricTensor deviator_there = shear * SymmetricTensor{1.0, -1.0, 0.0, 0.3};
     const double forth = back * random.uniform(1.001, 1.3);
-    const std::vector<Segment> path{{mean * identity(), mean / rate},
-                                    {deviator_there - back * identity(), 1e-6},
-                                    {forth * identity() - random.uniform(0.5, 1.5) * deviator_there, forth / rate}};
+    const std::vector<Segment> path{
+        {mean * identity(), mean / rate},
+        {deviator_there - back * identity(), 1e-6},
+        {forth * identity() - random.uniform(0.5, 1.5) * deviator_there, forth / rate}};
     CAPTURE(i, mean, back, shear);
     localised += compare_steps(*glass, path);
   }
@@ -127,7 +130,8 @@ TEST_CASE("localisation of steel does not depend on the step on proportional pat
   const auto steel = make_material(p, cell);
   int localised = 0;
   for (int i = 0; i < 200; ++i) {
-    const SymmetricTensor strain = 0.06 * random.deviatoric_direction() + random.uniform(-0.01, 0.01) * identity();
+    const SymmetricTensor strain =
+        0.06 * random.deviatoric_direction() + random.uniform(-0.01, 0.01) * identity();
     CAPTURE(i);
     localised += compare_steps(*steel, {{strain, 1e-4}});
   }

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double M = 86.4e9, strength = 50.0e6, opening = 5.0e-6, angle = 0.3;
 
-Driven soften(double viscosity, double strain, double duration, int steps, double reference_opening = opening) {
+Driven soften(double viscosity, double strain, double duration, int steps,
+              double reference_opening = opening) {
   const auto glass = make_material(cohesive_glass(reference_opening, 50.0, 1.0, viscosity), cell);
   const PointState onset =
       at_onset(*glass, angle, strength, strength / M * Moduli{48e9, 28.8e9}.stress(normal_dyad(angle)));
@@ -42,7 +43,8 @@ TEST_CASE("viscous softening converges at first order to the solution of its equ
   }
 }
 
-TEST_CASE("viscous softening tends to the inviscid law as the viscosity vanishes", "[material][decohesion][viscosity]") {
+TEST_CASE("viscous softening tends to the inviscid law as the viscosity vanishes",
+          "[material][decohesion][viscosity]") {
   const double inviscid = soften(0.0, 2.0e-3, 1.0e-6, 100).state.decohesion;
   double previous = 1.0;
   for (const double viscosity : {1e-6, 1e-7, 1e-8, 1e-9}) {
@@ -53,7 +55,8 @@ TEST_CASE("viscous softening tends to the inviscid law as the viscosity vanishes
   CHECK(previous < 1e-3);
 }
 
-TEST_CASE("viscosity takes the jump out of a snap-back and loses no energy", "[material][decohesion][viscosity][energy]") {
+TEST_CASE("viscosity takes the jump out of a snap-back and loses no energy",
+          "[material][decohesion][viscosity][energy]") {
   const Driven d = soften(1e-7, 2.0e-3, 1.0e-5, 20000, 1.0e-7);  // snaps back at once without viscosity
   REQUIRE(is_separated(d.state));
   const auto glass = make_material(cohesive_glass(1.0e-7, 50.0, 1.0, 1e-7), cell);

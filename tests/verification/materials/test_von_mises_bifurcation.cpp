@@ -46,7 +46,9 @@ Critical brute_force_critical(const SymmetricTensor& s, bool all) {
   return {high, all && plane.determinant > 0.0, plane.angle};
 }
 
-double softening_drop(double softening) { return 4.0 * G * G / (2.0 * G - root * softening); }
+double softening_drop(double softening) {
+  return 4.0 * G * G / (2.0 * G - root * softening);
+}
 
 Driven pull(const MaterialParameters& p, const SymmetricTensor& direction, int steps) {
   return drive(*make_material(p, cell), {{(0.06 / norm(direction)) * direction, 1.0}}, steps);
@@ -54,7 +56,8 @@ Driven pull(const MaterialParameters& p, const SymmetricTensor& direction, int s
 
 }  // namespace
 
-TEST_CASE("critical plane of von Mises flow against a scan of det(n.T.n)", "[material][von_mises][bifurcation]") {
+TEST_CASE("critical plane of von Mises flow against a scan of det(n.T.n)",
+          "[material][von_mises][bifurcation]") {
   Random random(30);
   const Moduli moduli{K, G};
   int clamped = 0, hoop = 0;
@@ -97,8 +100,8 @@ TEST_CASE("critical plane of von Mises flow against eqs. 25 and 26 where the hoo
     if (s.tt > p.major || s.tt < p.minor) continue;
     const double s0 = trace(s) / 3.0, sc = 0.5 * (p.major + p.minor), r = 0.5 * (p.major - p.minor);
     const double critical = (G * G + 3.0 * K * G) / (3.0 * G * (s0 - sc) * (s0 - sc) + (G + 3.0 * K) * r * r);
-    const double theta =
-        std::atan(std::sqrt((3.0 * G * (sc - s0) - (G + 3.0 * K) * r) / (3.0 * G * (s0 - sc) - (G + 3.0 * K) * r)));
+    const double theta = std::atan(
+        std::sqrt((3.0 * G * (sc - s0) - (G + 3.0 * K) * r) / (3.0 * G * (s0 - sc) - (G + 3.0 * K) * r)));
     const double drop = softening_drop(9.6e9);
     const CriticalPlane plane = von_mises_critical_plane(s, {K, G}, drop, true);
     REQUIRE(plane.severity == Approx(drop / contract(s, s) / critical).epsilon(1e-12));
@@ -110,23 +113,27 @@ TEST_CASE("critical plane of von Mises flow against eqs. 25 and 26 where the hoo
 TEST_CASE("pure shear and plane strain localise exactly at the peak", "[material][von_mises][bifurcation]") {
   const double yielded = root * 359.0e6 / (2.0 * G), peak = 125.0 / 9600.0;
   const double at = (yielded + peak * (1.0 + root * 9.6e9 / (2.0 * G))) / 0.06;
-  for (const SymmetricTensor& direction : {SymmetricTensor{0.0, 0.0, 0.0, 1.0}, SymmetricTensor{1.0, -1.0, 0.0, 0.0},
-                                           SymmetricTensor{0.6, -0.6, 0.0, 0.8}})
+  for (const SymmetricTensor& direction :
+       {SymmetricTensor{0.0, 0.0, 0.0, 1.0}, SymmetricTensor{1.0, -1.0, 0.0, 0.0},
+        SymmetricTensor{0.6, -0.6, 0.0, 0.8}})
     for (const int steps : {1, 3, 100}) {
       CAPTURE(direction.rr, direction.rz, steps);
       const Driven d = pull(fracturing_steel(), direction, steps);
       REQUIRE(is_localised(d.state));
       CHECK(d.time_of(EventKind::localisation) == Approx(at).epsilon(1e-9));
       CHECK(d.time_of(EventKind::peak) == Approx(at).epsilon(1e-9));
-      // n at 45 degrees to the principal axes: all shear, and the traction is the radius over sqrt(2), on both modes alike.
+      // n at 45 degrees to the principal axes: all shear, and the traction is the radius over sqrt(2), on
+      // both modes alike.
       CHECK(d.state.cohesive_strength == Approx(root * 484.0e6 / std::sqrt(2.0)).epsilon(1e-9));
     }
 }
 
-TEST_CASE("uniaxial stress and strain localise only with a steep softening", "[material][von_mises][bifurcation]") {
+TEST_CASE("uniaxial stress and strain localise only with a steep softening",
+          "[material][von_mises][bifurcation]") {
   for (const bool all : {false, true})
     for (const double sign : {1.0, -1.0})
-      for (const SymmetricTensor& direction : {SymmetricTensor{2.0, -1.0, -1.0, 0.0}, SymmetricTensor{-1.0, 2.0, -1.0, 0.0}}) {
+      for (const SymmetricTensor& direction :
+           {SymmetricTensor{2.0, -1.0, -1.0, 0.0}, SymmetricTensor{-1.0, 2.0, -1.0, 0.0}}) {
         CAPTURE(all, sign);
         MaterialParameters p = fracturing_steel(all);
         for (const double softening : {9.6e9, 39.7e9}) {

@@ -59,7 +59,8 @@ TEST_CASE("perfect plasticity turns the deviator by the tan(psi/2) law, at first
   }
 }
 
-TEST_CASE("linear hardening follows |s| = R0 (sin psi0 / sin psi)^kappa", "[material][von_mises][convergence]") {
+TEST_CASE("linear hardening follows |s| = R0 (sin psi0 / sin psi)^kappa",
+          "[material][von_mises][convergence]") {
   Random random(21);
   for (const double hardening : {9.6e9, 60.0e9}) {
     const auto steel = make_material(steel_with(hardening), cell);

@@ -1,0 +1,62 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "analysis/energy_ledger.hpp"
+#include "integrators/grid/explicit.hpp"
+#include "scene/build_system.hpp"
+#include "scene/read_scene.hpp"
+#include "support/mpm_scene.hpp"
+
+namespace vitrum::test {
+
+/// A scene that is being computed, with its energy account.
+class MpmRun final : private StepObserver {
+ public:
+  explicit MpmRun(const Scene& scene, int threads = 1)
+      : system(build_system(scene, threads)),
+        integrator(step_scheme(scene.integrator.scheme), scene.integrator.step, scene.integrator.courant),
+        ledger(system) {}
+  explicit MpmRun(const MpmScene& scene, int threads = 1)
+      : MpmRun(parse_scene(scene.text(), "test.toml"), threads) {}
+
+  /// Called after every step with its length (s); false stops the run.
+  std::function<bool(double)> watch;
+
+  bool advance(double target) { return integrator.advance(system, target, *this); }
+  /// Opens the energy account anew: for tests that set particle states themselves.
+  void reopen_ledger() { ledger = EnergyLedger(system); }
+
+  Particles& particles(std::size_t body = 0) { return system.bodies[body].particles; }
+  const EnergyTotals& energy() const { return ledger.totals(); }
+
+  System system;
+  ExplicitIntegrator integrator;
+  EnergyLedger ledger;
+
+ private:
+  bool step_done(System& stepped, double step) override {
+    ledger.book(stepped);
+    return !watch || watch(step);
+  }
+};
+
+/// Total momentum, kg m/s (per radian or per metre).
+inline std::array<double, 2> total_momentum(const System& system) {
+  std::array<double, 2> sum{};
+  for (const Body& body : system.bodies)
+    for (std::size_t k = 0; k < 2; ++k)
+      for (std::size_t i = 0; i < body.particles.size; ++i)
+        sum[k] += body.particles.mass[i] * body.particles.velocity[k][i];
+  return sum;
+}
+
+/// Mass-weighted mean of a particle quantity.
+inline double mass_mean(const Particles& p, const std::vector<double>& values) {
+  double sum = 0.0, mass = 0.0;
+  for (std::size_t i = 0; i < p.size; ++i) sum += p.mass[i] * values[i], mass += p.mass[i];
+  return sum / mass;
+}
+
+}  // namespace vitrum::test

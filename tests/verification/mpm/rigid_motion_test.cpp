@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "catch.hpp"
+#include "mpm/transfer.hpp"
+#include "support/mpm_run.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+constexpr const char* schemes[] = {"usf", "usl", "musl"};
+
+double angular_momentum(const Particles& p) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < p.size; ++i)
+    sum += p.mass[i] * (p.position[0][i] * p.velocity[1][i] - p.position[1][i] * p.velocity[0][i]);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("A stress turns with the body: a full turn in 360 small ones brings it back", "[verification][mpm]") {
+  // Only the strain and stress updates act: velocities stay those of a rigid rotation and particles where they are.
+  MpmScene scene;
+  scene.tables = body("disk", box({-6.0, -6.0}, {6.0, 6.0}),
+                      "velocity_gradient = [[0.0, -1.0], [1.0, 0.0]]\nstress = [-0.01, 0.02, 0.004, 0.003]");
+  MpmRun run(scene);
+  System& s = run.system;
+  const SymmetricTensor start{-0.01, 0.02, 0.004, 0.003};
+  const double turn = 2.0 * std::numbers::pi / 360.0;
+  mpm::refresh_grid(s);
+  mpm::scatter(s, mpm::Scatter::momentum);
+  mpm::project_velocities(s);
+  const auto deviation = [&](double angle) {
+    const SymmetricTensor expected = rotate(start, {std::cos(angle), std::sin(angle)});
+    const Particles& p = run.particles();
+    double worst = 0.0;
+    for (std::size_t i = 0; i < p.size; ++i)
+      if (std::abs(p.position[0][i]) < 4.0 && std::abs(p.position[1][i]) < 4.0)
+        worst = std::max({worst, std::abs(p.stress[0][i] - expected.rr), std::abs(p.stress[1][i] - expected.zz),
+                          std::abs(p.stress[2][i] - expected.tt), std::abs(p.stress[3][i] - expected.rz)});
+    return worst;
+  };
+  for (int n = 1; n <= 360; ++n) {
+    mpm::gather(s, mpm::Gather::strain, turn);
+    mpm::update_stress(s, turn);
+    if (n == 45 || n == 360) CHECK(deviation(n * turn) < 1e-14);
+  }
+}
+
+TEST_CASE("Rigid rotation: a quarter turn keeps energy, angular momentum and shape", "[verification][mpm]") {
+  const double radius = 6.0, rate = 0.005 / radius;  // the rim runs at 0.5 % of the wave speed
+  for (const char* shape : {"linear", "gimp", "bspline2"})
+    for (const char* scheme : schemes) {
+      CAPTURE(shape, scheme);
+      MpmScene scene;
+      scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.5";
+      scene.tables = body("disk", disk({0.0, 0.0}, radius),
+                          fmt::format("particles_per_cell = 4\nvelocity_gradient = [[0.0, {}], [{}, 0.0]]", -rate, rate));
+      MpmRun run(scene);
+      const Particles& p = run.particles();
+      const std::array<std::vector<double>, 2> start = p.position;
+      const double initial = angular_momentum(p);
+      run.advance(0.5 * std::numbers::pi / rate);
+      double worst = 0.0;  // (x, y) -> (-y, x)
+      for (std::size_t i = 0; i < p.size; ++i)
+        worst = std::max(worst, std::hypot(p.position[0][i] + start[1][i], p.position[1][i] - start[0][i]));
+      const double momentum_change = angular_momentum(p) / initial - 1.0;
+      const double kinetic_change = run.energy().kinetic / run.energy().initial - 1.0;
+      CAPTURE(worst, momentum_change, kinetic_change);
+      CHECK(worst < 0.1);  // cells
+      CHECK(std::abs(momentum_change) < 0.01);
+      CHECK(std::abs(kinetic_change) < 0.01);
+    }
+}
+
+TEST_CASE("Free fall: the work of gravity is the kinetic energy, and the path the scheme's own parabola",
+          "[verification][mpm]") {
+  const double g = 9.81e-3, step = 0.2;
+  for (const char* geometry : {"plane-strain", "axisymmetric"})
+    for (const char* scheme : schemes) {
+      CAPTURE(geometry, scheme);
+      MpmScene scene;
+      scene.geometry = geometry, scene.scheme = scheme, scene.pace = fixed_step(step);
+      scene.tables = body("drop", box({0.0, 0.0}, {4.0, 5.0})) + "[gravity]\nacceleration = [0, -9.81e-3]\n";
+      MpmRun run(scene);
+      const std::vector<double> start = run.particles().position[1];
+      const int steps = 400;
+      run.advance(steps * step);
+      const Particles& p = run.particles();
+      // Velocity first, then position: x_n = -g dt^2 n (n + 1) / 2, first order away from -g t^2 / 2.
+      const double fallen = -g * step * step * 0.5 * steps * (steps + 1), parabola = -0.5 * g * std::pow(steps * step, 2);
+      CHECK(fallen == Approx(parabola).epsilon(1.01 / steps));
+      for (std::size_t i = 0; i < p.size; ++i) {
+        REQUIRE(p.position[1][i] - start[i] == Approx(fallen).epsilon(1e-12));
+        REQUIRE(p.velocity[1][i] == Approx(-g * step * steps).epsilon(1e-12));
+        REQUIRE(std::abs(p.velocity[0][i]) < 1e-12);
+      }
+      CHECK(run.energy().external == Approx(run.energy().kinetic).epsilon(1e-12));
+      CHECK(std::abs(run.energy().relative_residual()) < 1e-12);
+    }
+}
+
+TEST_CASE("Momentum is conserved to rounding in a collision", "[verification][mpm]") {
+  for (const char* geometry : {"plane-strain", "axisymmetric"})
+    for (const char* shape : {"linear", "gimp", "bspline2"})
+      for (const char* scheme : schemes) {
+        CAPTURE(geometry, shape, scheme);
+        const bool axisymmetric = std::string(geometry) == "axisymmetric";
+        MpmScene scene;
+        scene.geometry = geometry, scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.3";
+        scene.tables = body("plate", box({0.0, 0.0}, {12.0, 3.0}), "particles_per_cell = 4") +
+                       body("ball", disk({0.0, 6.0}, 2.5), axisymmetric ? "velocity = [0.0, -0.05]" : "velocity = [0.01, -0.05]");
+        MpmRun run(scene);
+        const auto before = total_momentum(run.system);
+        run.advance(60.0);
+        const auto after = total_momentum(run.system);
+        CHECK(run.energy().elastic > 1e-3 * run.energy().initial);
+        CHECK(std::abs(after[1] / before[1] - 1.0) < 1e-12);
+        if (!axisymmetric) CHECK(std::abs(after[0] / before[0] - 1.0) < 1e-12);
+      }
+}
