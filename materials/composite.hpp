@@ -96,8 +96,8 @@ class Composite final : public Material {
   double advance_separated(PointState& s, const SymmetricTensor& strain) const;
   void separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void relax_crack(PointState& s) const;
-  void flow_behind_crack(PointState& s, Dissipation& dissipation) const;
-  double flow_along_deviator(PointState& s, double excess, Dissipation& dissipation) const;
+  void flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const;
+  double flow_along_deviator(PointState& s, double excess) const;
   PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain, const Moduli& moduli) const {
     const SymmetricTensor stress = moduli.stress(strain);
     return {plane.normal_part(stress), plane.tangential_part(stress), moduli.p_wave(), moduli.shear};

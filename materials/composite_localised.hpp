@@ -8,6 +8,8 @@ namespace vitrum {
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,
                                            PointReport& report) const {
+  // Tension may have carried the point beyond the strength that it has under pressure.
+  const double outside_before = has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
   double fraction = 0.0;
   const auto record = [&](EventKind kind, double f) { report.record(kind, done + f * (1.0 - done)); };
   // Each pass takes the increment to its next event: onset of softening, a substep of it, separation, a change of side.
@@ -28,7 +30,7 @@ void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor&
   if (fraction < 1.0) s.elastic_strain += (1.0 - fraction) * strain;
   if constexpr (has_yield) {
     const double before = s.plastic_strain;
-    flow_behind_crack(s, report.dissipation);
+    flow_behind_crack(s, outside_before, report.dissipation);
     if (before == 0.0 && s.plastic_strain > 0.0) record(EventKind::yield, 1.0);
   }
 }
@@ -183,7 +185,7 @@ double Composite<D, Y, C>::advance_separated(PointState& s, const SymmetricTenso
 
 /// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the material flows.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::flow_behind_crack(PointState& s, Dissipation& dissipation) const {
+void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const {
   const auto excess = [&](const PointState& c) {  // > 0 outside the yield surface, Pa
     const bool tension = trace(c.elastic_strain) > 0.0;
     if (Y == Yielding::drucker_prager && tension) return -1.0;
@@ -193,26 +195,32 @@ void Composite<D, Y, C>::flow_behind_crack(PointState& s, Dissipation& dissipati
   const double violated = excess(s);
   if (!(violated > tolerance)) return;
   if (!is_separated(s)) {
-    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s.crack_density), 0.0);
+    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s.crack_density), outside_before);
     return;
   }
 
   // Flow and traction-free faces are met in turn. Each turn brings the excess down by a nearly constant factor, which the next
   // one anticipates: it flows as much more as relaxing the faces gave back the last time.
-  double factor = 1.0, last = violated;
+  const double stored = stored_energy(s);
+  double factor = 1.0, last = violated, along_surface = 0.0;
   for (int turn = 0; turn < 50 && last > tolerance; ++turn) {
-    const double amount = flow_along_deviator(s, factor * last, dissipation);
+    const double work = flow_along_deviator(s, factor * last);
+    along_surface += work;
     relax_crack(s);
     const double value = excess(s);
-    if (!(amount > 0.0) || value <= 0.0) return;
+    if (!(work > 0.0) || value <= 0.0) break;
     factor = std::clamp(factor / (1.0 - value / last), 1.0, 4.0);
     last = value;
   }
+  // What was outside before the increment falls onto the surface at once and loses all its energy; the rest flows along it.
+  const double lost = std::max(0.0, stored - stored_energy(s)), sudden_share = std::min(1.0, outside_before / violated);
+  dissipation.plastic += sudden_share * lost + (1.0 - sudden_share) * std::min(lost, along_surface);
 }
 
-/// Plastic strain that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the deviator. Returns |d eps_p|.
+/// Plastic flow that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the deviator. Returns its work
+/// at the stress after it, J/m^3.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess, Dissipation& dissipation) const {
+double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess) const {
   const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
   const SymmetricTensor d = deviator(s.elastic_strain);
   const double size = norm(d);
@@ -227,8 +235,7 @@ double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess, Dis
   amount = std::min(amount, size);
   s.elastic_strain -= amount * direction;
   s.plastic_strain += amount;
-  dissipation.plastic += amount * std::max(0.0, contract(moduli.stress(s.elastic_strain), direction));
-  return amount;
+  return amount * std::max(0.0, contract(moduli.stress(s.elastic_strain), direction));
 }
 
 }  // namespace vitrum

@@ -8,6 +8,7 @@
 
 #include "app/command_line.hpp"
 #include "integrators/grid/critical_step.hpp"
+#include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
@@ -48,7 +49,7 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system) {
           {"critical_body", critical.body},
           {"step", step},
           {"step_to_critical", step / critical.step},
-          {"steps", std::ceil((scene.end - scene.start) / step)}};
+          {"steps", std::ceil((scene.end - scene.start) / step - 1e-6)}};
 }
 
 }  // namespace
@@ -78,6 +79,7 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
 int check_scene(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
   const System system = build_system(scene, 1);
+  output::select_fields(scene.output.fields, output::materials_of(system.bodies));  // throws InputError
   const std::vector<std::string> warned = warnings(scene, system);
   nlohmann::ordered_json facts = derived(scene, system);
   if (options.json) {

@@ -6,6 +6,7 @@
 
 #include "app/check_command.hpp"
 #include "app/simulation.hpp"
+#include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/read_scene.hpp"
 
@@ -19,6 +20,8 @@ int run_scene(const RunOptions& options) {
   const std::filesystem::path directory =
       options.directory.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                                 : std::filesystem::path(options.directory);
+  // Before the folder is made: wrong input leaves no trace.
+  output::select_fields(scene.output.fields, output::materials_of(system.bodies));
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));

@@ -17,6 +17,7 @@ struct RunState {
   std::int64_t checkpoints = 0;     ///< planned checkpoints written
   std::int64_t energy_times = 0;    ///< next planned row of energy.csv
   std::int64_t energy_rows = 0;     ///< rows in energy.csv
+  std::int64_t energy_step = 0;     ///< time step of the last of them
   std::int64_t result_steps = 0;    ///< steps in result.h5
   std::int64_t evaluations = 0, events = 0;
   double wall_seconds = 0.0;

@@ -41,6 +41,12 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
 }
 
 void Simulation::start() {
+  // What an earlier run left here would speak for this one.
+  for (const char* name : {"summary.json", "checkpoint.h5", "result.xdmf"}) {
+    std::error_code error;
+    std::filesystem::remove(directory_ / name, error);
+    if (error) throw FileError(fmt::format("{}: cannot be removed: {}", (directory_ / name).string(), error.message()));
+  }
   result_ = output::ResultFile::create(
       directory_, {scene_.title, scene_.verbatim, resolved_toml(scene_), provenance_,
                    options_.no_fields ? output::ParticleConstants{} : output::particle_constants(system_.bodies, scene_.geometry)});
@@ -65,11 +71,15 @@ void Simulation::resume() {
   failure_.restore(state_.failure);
   integrator_->restore(state_.integrator);
   result_ = output::ResultFile::reopen(directory_, static_cast<std::size_t>(state_.result_steps));
+  if ((result_->particles() == 0) != options_.no_fields)
+    throw InputError(fmt::format("--resume: found a run {} particle data in {}, expected {} --no-fields",
+                                 options_.no_fields ? "with" : "without", directory_.string(),
+                                 options_.no_fields ? "no" : "also"));
   energy_csv_ = output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
 }
 
 int Simulation::run() {
-  while (true) {
+  while (!ended()) {
     const Schedule::Target target = schedule_.next(state_.outputs, state_.checkpoints);
     const bool reached = advance_to(target.time);
     if (failed_) return finish(output::RunStatus::failed, *failed_, exit_computation);
@@ -82,8 +92,8 @@ int Simulation::run() {
         ++state_.checkpoints;
         write_checkpoint();
       }
-      if (system_.time >= scene_.end) return finish(output::RunStatus::complete, "", exit_done);
     }
+    if (ended()) break;
     if (const int signal = caught_signal()) {
       write_checkpoint();
       return finish(output::RunStatus::interrupted,
@@ -92,6 +102,12 @@ int Simulation::run() {
                     128 + signal);
     }
   }
+  return finish(output::RunStatus::complete, "", exit_done);
+}
+
+bool Simulation::ended() const {
+  // Not just the time: a run interrupted by its last step, and resumed, still has to write.
+  return !result_->steps().empty() && result_->steps().back().time >= scene_.end;
 }
 
 bool Simulation::advance_to(double target) {
@@ -121,8 +137,10 @@ bool Simulation::step_done(System& system, double step) {
 }
 
 void Simulation::write_energy_row() {
+  if (state_.energy_rows > 0 && state_.energy_step == system_.step_index) return;
   energy_csv_->append(system_.time, system_.step_index, shown_energy());
   state_.energy_rows = static_cast<std::int64_t>(energy_csv_->rows());
+  state_.energy_step = system_.step_index;
 }
 
 std::vector<output::SeriesValue> Simulation::series() const {

@@ -29,6 +29,7 @@ class Simulation final : private StepObserver {
   bool step_done(System& system, double step) override;
   void start();
   void resume();
+  bool ended() const;
   bool advance_to(double target);
   void write_output();
   void write_checkpoint();
