@@ -1,8 +1,11 @@
 #include "integrators/grid/explicit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -82,7 +85,13 @@ bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserv
 
 bool ExplicitIntegrator::advance_courant(System& system, double target, StepObserver& observer) {
   while (system.time < target) {
-    const double stable = *courant_ * critical_step(system, scheme_).step;
+    const CriticalStep critical = critical_step(system, scheme_);
+    const double stable = *courant_ * critical.step;
+    // Particles that run away shrink the step without end: a hang, unless it is called what it is.
+    if (!(critical.travel_speed < 1e6 * critical.wave_speed))
+      throw ComputationError(fmt::format("the step has collapsed to {:.3g} s because a particle of body '{}' moves at {:.3g} m/s, "
+                                         "over a million times its wave speed",
+                                         stable, critical.body, critical.travel_speed));
     const double left = target - system.time;
     // The last two steps share what is left, so that no step is much shorter than its neighbours.
     const bool last = left <= stable * (1.0 + 1e-9);

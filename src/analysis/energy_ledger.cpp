@@ -44,7 +44,8 @@ void EnergyLedger::book(const System& system) {
 
 double EnergyLedger::growth() const {
   const double available = totals_.initial + std::max(totals_.external, 0.0);
-  const double present = totals_.kinetic + totals_.elastic;
+  // A particle squeezed beyond nothing (tr e < -1.5) stores negative energy, which must not hide growth.
+  const double present = totals_.kinetic + std::abs(totals_.elastic);
   // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with nothing.
   return available > 1e-280 ? present / available : (std::isfinite(present) ? 1.0 : present);
 }

@@ -54,6 +54,11 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
   const output::RunSummary s = summary(status, message);
   output::write_summary(directory_ / "summary.json", s);
   if (!options_.quiet) print_summary(s);
+  constexpr double tolerated = 0.05;
+  if (const double residual = s.energy.relative_residual(); status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
+    fmt::print(stderr, "warning: the numerics {} {:.1f} % of the energy: the step does not resolve this run (try a smaller "
+                       "integrator.step or integrator.courant = 0.1)\n",
+               residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual));
   if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
   if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
   return exit_status;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 
 namespace vitrum::mpm {
@@ -27,9 +28,12 @@ struct Shape1;
 template <>
 struct Shape1<ShapeKind::linear> {
   static constexpr int count = 2;
+  /// A particle exactly on a node is taken to be a rounding inside the cell: with N = 0 but a slope of 1, the cell's other node may
+  /// be empty, and its velocity would be read as 0 (N / m has a limit there, 0 / 0 has none).
+  static constexpr double nearest = 1e-15;
   static Weights1<2> at(double x, double /*half*/) {
     const long long cell = cell_of(x);
-    const double s = x - static_cast<double>(cell);
+    const double s = std::clamp(x - static_cast<double>(cell), nearest, 1.0 - nearest);
     return {cell, {1.0 - s, s}, {-1.0, 1.0}};
   }
 };

@@ -1,0 +1,62 @@
+"""`vitrum check` of scenes that are valid."""
+import json
+import tomllib
+import unittest
+
+from support import CommandLineTest, impact, overrides, plane_strain, source
+
+
+class Check(CommandLineTest):
+    def resolved(self, scene, *arguments):
+        return tomllib.loads(self.vitrum("check", scene, *arguments).stdout)
+
+    def test_the_answer_is_a_scene(self):
+        scene = tomllib.loads(impact.read_text())
+        resolved = self.resolved(impact)
+        self.assertEqual(resolved["title"], scene["title"])
+        self.assertEqual([body["name"] for body in resolved["body"]], ["plate", "cylinder"])
+        self.assertEqual(resolved["integrator"]["max_growth"], 1.5)  # a default is filled in
+
+    def test_the_answer_resolves_to_itself(self):
+        for scene in (impact, plane_strain, source / "studies" / "paper" / "reference.toml"):
+            text = self.vitrum("check", scene).stdout
+            again = self.folder / "again.toml"
+            again.write_text(text)
+            self.assertEqual(self.resolved(scene), self.resolved(again))
+
+    def test_overrides(self):
+        changed = self.resolved(impact, *overrides(space__cell=5e-4, body__1__velocity__1=-50.0, title='"a=b"',
+                                                   integrator__courant=0.2))
+        self.assertEqual(changed["space"]["cell"], 5e-4)
+        self.assertEqual(changed["body"][1]["velocity"], [0.0, -50.0])
+        self.assertEqual(changed["title"], "a=b")
+        self.assertEqual(changed["integrator"]["courant"], 0.2)
+        self.assertNotIn("step", changed["integrator"])
+        back = self.resolved(impact, *overrides(integrator__courant=0.2, integrator__step=1e-8))
+        self.assertEqual(back["integrator"]["step"], 1e-8)
+        self.assertNotIn("courant", back["integrator"])
+
+    def test_json(self):
+        facts = json.loads(self.vitrum("check", impact, "--json").stdout)
+        self.assertEqual(facts["particles"], 200)
+        self.assertEqual(facts["steps"], 1000)
+        self.assertEqual(facts["bodies"]["plate"]["particles"], 100)
+        self.assertAlmostEqual(facts["bodies"]["plate"]["mass"], 2500 * 3.14159265 * 0.02**2 * 0.005, delta=1e-8)
+        # Wave speed of a P wave: sqrt(young (1 - nu) / (density (1 + nu) (1 - 2 nu))).
+        self.assertAlmostEqual(facts["bodies"]["cylinder"]["wave_speed"], 5477.2256, delta=1e-3)
+        self.assertAlmostEqual(facts["step_to_critical"], facts["step"] / facts["critical_step"])
+        self.assertIsInstance(facts["warnings"], list)
+        self.assertEqual(tomllib.loads(facts["resolved"]), self.resolved(impact))
+
+    def test_a_step_beyond_the_critical_one_is_warned_of(self):
+        answer = self.vitrum("check", impact, *overrides(integrator__step=2e-7))
+        self.assertRegex(answer.stderr, r"warning: integrator\.step: 2e-07 s is 1\.\d+ times the critical step")
+        self.assertNotIn("integrator.step", self.vitrum("check", impact).stderr)
+
+    def test_nothing_is_written(self):
+        self.vitrum("check", impact)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

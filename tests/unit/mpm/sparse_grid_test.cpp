@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "catch.hpp"
+#include "support/mpm_run.hpp"
+
+using namespace vitrum;
+using namespace vitrum::mpm;
+using namespace vitrum::test;
+
+namespace {
+
+constexpr const char* shapes[] = {"linear", "gimp", "bspline2"};
+
+/// A ball that hits a block off-centre, everything moved by whole cells.
+MpmScene impact(const char* shape, const char* scheme, double x, double y) {
+  MpmScene scene;
+  scene.shape = shape, scene.scheme = scheme, scene.pace = "step = 0.1";
+  scene.tables = body("block", box({x, y}, {x + 14.0, y + 5.0})) +
+                 body("ball", box({x + 4.0, y + 6.0}, {x + 8.0, y + 9.0}), "particles_per_cell = 4\nvelocity = [0.02, -0.1]");
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Two bodies a million cells apart cost only their own blocks", "[mpm][grid]") {
+  MpmScene scene;
+  scene.tables = body("here", box({0.0, 0.0}, {10.0, 10.0})) + body("there", box({1e6, 1e6}, {1e6 + 10.0, 1e6 + 10.0}));
+  MpmRun run(scene);
+  run.advance(0.2);
+  CHECK(run.system.grid.tiles().size() == 8);
+  CHECK(run.system.grid.blocks().size() <= 18);
+}
+
+TEST_CASE("Block borders do not change results: scenes moved by whole cells agree to rounding", "[mpm][grid]") {
+  for (const char* shape : shapes)
+    for (const char* scheme : {"usf", "musl"})
+      for (const auto& [dx, dy] : {std::pair{8.0, 3.0}, std::pair{-21.0, 5.0}, std::pair{3.0, -40.0}}) {
+        CAPTURE(shape, scheme, dx, dy);
+        MpmRun here(impact(shape, scheme, 0.0, 0.0)), there(impact(shape, scheme, dx, dy));
+        here.advance(30.0), there.advance(30.0);
+        CHECK(here.energy().elastic > 1e-3 * here.energy().initial);
+        double worst = 0.0;
+        for (std::size_t n = 0; n < 2; ++n) {
+          const Particles &a = here.particles(n), &b = there.particles(n);
+          for (std::size_t i = 0; i < a.size; ++i)
+            worst = std::max({worst, std::abs(a.position[0][i] + dx - b.position[0][i]),
+                              std::abs(a.position[1][i] + dy - b.position[1][i]), std::abs(a.stress[0][i] - b.stress[0][i]),
+                              std::abs(a.velocity[1][i] - b.velocity[1][i])});
+        }
+        CAPTURE(worst);
+        CHECK(worst < 1e-11);
+      }
+}
+
+TEST_CASE("A body that flies a hundred thousand cells keeps its shape and momentum", "[mpm][grid]") {
+  for (const char* shape : shapes) {
+    CAPTURE(shape);
+    MpmScene scene;
+    scene.shape = shape, scene.scheme = "musl", scene.pace = "step = 0.5";
+    // Half a cell a step: faster than sound, so that it does not take all day; nothing happens that could be unstable.
+    scene.tables = body("bullet", box({0.0, 0.0}, {2.0, 1.0}), "velocity = [1.0, 0.25]");
+    MpmRun run(scene);
+    const auto start = run.particles().position;
+    const auto momentum = total_momentum(run.system);
+    run.advance(1e5);
+    const Particles& p = run.particles();
+    double worst = 0.0, strain = 0.0;
+    for (std::size_t i = 0; i < p.size; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double moved = p.position[k][i] - start[k][i] - (k == 0 ? 1e5 : 2.5e4);
+        worst = std::max(worst, std::abs(moved));
+        strain = std::max(strain, std::abs(p.elastic_strain[k][i]));
+      }
+    const auto after = total_momentum(run.system);
+    CAPTURE(worst, strain);
+    CHECK(worst < 1e-5);  // 2e5 additions at 1e5: rounding adds up to 2e5 x 1e-11 at most
+    CHECK(strain < 1e-9);
+    CHECK(after[0] == Approx(momentum[0]).epsilon(1e-10));
+    CHECK(after[1] == Approx(momentum[1]).epsilon(1e-10));
+    CHECK(run.system.grid.blocks().size() <= 9);
+  }
+}
+
+TEST_CASE("The state after a hundred steps of an impact is the same, bit for bit, with one, two and three threads", "[mpm][grid]") {
+  const std::string models =
+      "[material.elastic.damage]\ntoughness = 0.83e6\nk = 5.0e26\nm = 6\n"
+      "[material.elastic.drucker_prager]\nyield = 43.0e6\nbeta = 1.8\n"
+      "[material.elastic.decohesion]\nopening = 5.0e-6\nmode_ratio = 50.0\n";
+  for (const char* scheme : {"usf", "usl", "musl"}) {
+    CAPTURE(scheme);
+    MpmScene scene;
+    scene.geometry = "axisymmetric", scene.cell = 1e-3, scene.shape = "linear", scene.scheme = scheme;
+    const double step = std::string(scheme) == "usl" ? 3e-9 : 3e-8;
+    scene.pace = fixed_step(step);
+    scene.density = 2500.0, scene.young = 72e9, scene.poisson = 0.25;
+    scene.tables = body("plate", box({0.0, 0.0}, {0.04, 0.005}), "particles_per_cell = 4") +
+                   body("ball", box({0.0, 0.005}, {0.003, 0.011}), "particles_per_cell = 4\nvelocity = [0.0, -200.0]") + models;
+    MpmRun one(scene, 1), two(scene, 2), three(scene, 3);
+    for (MpmRun* run : {&one, &two, &three}) run->advance(100 * step);
+    REQUIRE(one.system.step_index == 100);
+    CHECK(one.energy().damage + one.energy().plastic > 0.0);
+    for (MpmRun* other : {&two, &three}) {
+      for (std::size_t n = 0; n < 2; ++n) {
+        const Particles &a = one.particles(n), &b = other->particles(n);
+        CHECK(a.position == b.position);
+        CHECK(a.velocity == b.velocity);
+        CHECK(a.stress == b.stress);
+        CHECK(a.elastic_strain == b.elastic_strain);
+        CHECK(a.variables == b.variables);
+      }
+      CHECK(one.energy().residual() == other->energy().residual());
+      CHECK(one.system.record.largest_speed == other->system.record.largest_speed);
+    }
+  }
+}
