@@ -204,11 +204,10 @@ void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
   const double stored = stored_energy(s);
   double factor = 1.0, last = violated, along_surface = 0.0;
   for (int turn = 0; turn < 50 && last > tolerance; ++turn) {
-    const double work = flow_along_deviator(s, factor * last);
-    along_surface += work;
+    along_surface += flow_along_deviator(s, factor * last);
     relax_crack(s);
     const double value = excess(s);
-    if (!(work > 0.0) || value <= 0.0) break;
+    if (value <= 0.0) break;
     factor = std::clamp(factor / (1.0 - value / last), 1.0, 4.0);
     last = value;
   }

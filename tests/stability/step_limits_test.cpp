@@ -8,15 +8,17 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// The step limits of the explicit schemes, in cells per pressure wave travel, against the von Neumann analysis of a row with one
-// particle a cell at offset xi. With s = sin^2(kh/2) and a = 4 xi (1 - xi): USF and MUSL are leapfrog on w^2 = 4 s (1 - a s) c^2/h^2,
-// so the limit is 2 / max w; USL has trace 2 - D and determinant 1 - D a s, D = 4 s (c dt/h)^2, so the limit is 1 / sqrt(1 + a).
+// The step limits of the explicit schemes, in cells per pressure wave travel, against the von Neumann
+// analysis of a row with one particle a cell at offset xi. With s = sin^2(kh/2) and a = 4 xi (1 - xi): USF
+// and MUSL are leapfrog on w^2 = 4 s (1 - a s) c^2/h^2, so the limit is 2 / max w; USL has trace 2 - D and
+// determinant 1 - D a s, D = 4 s (c dt/h)^2, so the limit is 1 / sqrt(1 + a).
 
 namespace {
 
 constexpr int cells = 40;
 
-/// Does a bar at rest but for velocities of 1e-9 c keep its energy over some hundred steps of length c dt/h = `step`?
+/// Does a bar at rest but for velocities of 1e-9 c keep its energy over some hundred steps of length c dt/h =
+/// `step`?
 bool stable(const std::string& scheme, double xi, double step, bool free_end) {
   MpmScene scene;
   scene.scheme = scheme;
@@ -85,8 +87,10 @@ TEST_CASE("USL between held ends is stable up to its own lower limit", "[stabili
   }
 }
 
-TEST_CASE("USL has no limit but zero when a free end's node is nearly empty; USF and MUSL keep theirs", "[stability][mpm]") {
-  const double at_hundredth = measured_limit("usl", 0.01, true), at_ten_thousandth = measured_limit("usl", 0.0001, true);
+TEST_CASE("USL has no limit but zero when a free end's node is nearly empty; USF and MUSL keep theirs",
+          "[stability][mpm]") {
+  const double at_hundredth = measured_limit("usl", 0.01, true),
+               at_ten_thousandth = measured_limit("usl", 0.0001, true);
   CAPTURE(at_hundredth, at_ten_thousandth);
   CHECK(at_hundredth < 0.25);
   CHECK(at_ten_thousandth < 0.025);
@@ -99,7 +103,8 @@ TEST_CASE("USL has no limit but zero when a free end's node is nearly empty; USF
   }
 }
 
-TEST_CASE("The critical step that the integrator reports is stable for every particle position", "[stability][mpm]") {
+TEST_CASE("The critical step that the integrator reports is stable for every particle position",
+          "[stability][mpm]") {
   for (const double xi : {0.5, 0.25, 0.1, 0.01, 0.999})
     for (const char* scheme : {"usf", "musl"}) {
       CAPTURE(xi, scheme);

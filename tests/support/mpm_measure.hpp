@@ -32,7 +32,8 @@ class Oscillation {
     samples_.emplace_back(time, value);
   }
   std::size_t zeros() const { return zeros_.size(); }
-  /// Angular frequency from the first zero to the last (linear between samples); at least two zeros are needed.
+  /// Angular frequency from the first zero to the last (linear between samples); at least two zeros are
+  /// needed.
   double frequency() const {
     return 3.14159265358979323846 * static_cast<double>(zeros_.size() - 1) / (zeros_.back() - zeros_.front());
   }

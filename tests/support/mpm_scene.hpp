@@ -25,7 +25,8 @@ struct MpmScene {
   std::string scheme = "usf";
   std::string pace = "courant = 0.2";  ///< or "step = ..."
   double density = 1.0, young = unit_young, poisson = unit_poisson;
-  std::string tables;  ///< [[body]], [[boundary]], [gravity], [material.NAME.MODEL]; bodies are made of "elastic"
+  std::string
+      tables;  ///< [[body]], [[boundary]], [gravity], [material.NAME.MODEL]; bodies are made of "elastic"
 
   std::string text() const {
     return fmt::format(

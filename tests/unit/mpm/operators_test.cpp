@@ -9,14 +9,16 @@ using namespace vitrum;
 using namespace vitrum::mpm;
 using namespace vitrum::test;
 
-// What any method of lines needs of the operators, for particles at random places with random stresses and velocities.
+// What any method of lines needs of the operators, for particles at random places with random stresses and
+// velocities.
 
 namespace {
 
 constexpr const char* geometries[] = {"plane-strain", "axisymmetric"};
 constexpr const char* shapes[] = {"linear", "gimp", "bspline2"};
 
-/// 30 x 20 cells of particles moved at random by up to 0.4 cells, some of them onto nodes, edges and next to the axis.
+/// 30 x 20 cells of particles moved at random by up to 0.4 cells, some of them onto nodes, edges and next to
+/// the axis.
 MpmRun disordered(const char* geometry, const char* shape) {
   MpmScene scene;
   scene.geometry = geometry, scene.shape = shape;
@@ -48,7 +50,8 @@ double sum(const Grid& grid, Field f) {
 
 }  // namespace
 
-TEST_CASE("The nodes carry the particles' mass and momentum, and internal forces add up to nothing", "[mpm]") {
+TEST_CASE("The nodes carry the particles' mass and momentum, and internal forces add up to nothing",
+          "[mpm]") {
   for (const char* geometry : geometries)
     for (const char* shape : shapes) {
       CAPTURE(geometry, shape);
@@ -57,7 +60,8 @@ TEST_CASE("The nodes carry the particles' mass and momentum, and internal forces
       scatter(run.system, Scatter::momentum_and_force);
       const Particles& p = run.particles();
       double mass = 0.0, force_scale = 0.0;
-      for (std::size_t i = 0; i < p.size; ++i) mass += p.mass[i], force_scale += p.mass[i] * std::abs(p.stress[0][i]);
+      for (std::size_t i = 0; i < p.size; ++i)
+        mass += p.mass[i], force_scale += p.mass[i] * std::abs(p.stress[0][i]);
       const auto momentum = total_momentum(run.system);
       const Grid& grid = run.system.grid;
       CHECK(sum(grid, Field::mass) == Approx(mass).epsilon(1e-13));
@@ -83,7 +87,9 @@ TEST_CASE("Scattering in two passes gives what one pass gives, bit for bit", "[m
   }
 }
 
-TEST_CASE("Internal forces are the transpose of the strain rate: f . v = - sum V sigma : grad v for any nodal v", "[mpm]") {
+TEST_CASE(
+    "Internal forces are the transpose of the strain rate: f . v = - sum V sigma : grad v for any nodal v",
+    "[mpm]") {
   for (const char* geometry : geometries)
     for (const char* shape : shapes) {
       CAPTURE(geometry, shape);
@@ -105,10 +111,12 @@ TEST_CASE("Internal forces are the transpose of the strain rate: f . v = - sum V
       const Particles& p = run.particles();
       double stress_power = 0.0;
       for (std::size_t i = 0; i < p.size; ++i) {
-        const double volume = p.mass[i] * (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
-        const double density = (p.stress[0][i] * p.strain_increment[0][i] + p.stress[1][i] * p.strain_increment[1][i] +
-                                p.stress[2][i] * p.strain_increment[2][i] + 2.0 * p.stress[3][i] * p.strain_increment[3][i]) /
-                               duration;
+        const double volume =
+            p.mass[i] * (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+        const double density =
+            (p.stress[0][i] * p.strain_increment[0][i] + p.stress[1][i] * p.strain_increment[1][i] +
+             p.stress[2][i] * p.strain_increment[2][i] + 2.0 * p.stress[3][i] * p.strain_increment[3][i]) /
+            duration;
         stress_power += volume * density;
         scale += std::abs(volume * density);
       }

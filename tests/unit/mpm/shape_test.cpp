@@ -21,7 +21,8 @@ void for_each_shape(F&& f) {
   for (const double half : halves) f.template operator()<ShapeKind::gimp>(half);
 }
 
-/// Positions to try: on nodes, cell centres and particle-edge alignments, one rounding beside each, and anywhere; both signs.
+/// Positions to try: on nodes, cell centres and particle-edge alignments, one rounding beside each, and
+/// anywhere; both signs.
 std::vector<double> positions() {
   std::vector<double> x;
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -73,7 +74,8 @@ TEST_CASE("Shape function slopes are the derivatives of their values", "[mpm][sh
     Random random(5);
     for (int i = 0; i < 2000; ++i) {
       const double x = random.uniform(-9.0, 9.0), d = 1e-5;
-      const auto w = Shape1<kind>::at(x, half), right = Shape1<kind>::at(x + d, half), left = Shape1<kind>::at(x - d, half);
+      const auto w = Shape1<kind>::at(x, half), right = Shape1<kind>::at(x + d, half),
+                 left = Shape1<kind>::at(x - d, half);
       if (right.first != left.first) continue;  // a kink or a change of nodes in between
       for (std::size_t k = 0; k < Shape1<kind>::count; ++k) {
         CAPTURE(static_cast<int>(kind), half, x, k);
@@ -106,14 +108,16 @@ TEST_CASE("Shape functions vanish beyond their support and have their textbook v
   const auto on_node = Shape1<ShapeKind::linear>::at(4.0, 0.5);
   CHECK(on_node.first == 4);
   CHECK(on_node.value[0] == Approx(1.0));
-  CHECK(on_node.value[1] > 0.0);  // never quite 0 where the slope is not: else that node might be empty and yet be read
+  CHECK(on_node.value[1] >
+        0.0);  // never quite 0 where the slope is not: else that node might be empty and yet be read
   CHECK(on_node.value[1] < 2e-15);
   const auto middle = Shape1<ShapeKind::bspline2>::at(4.0, 0.5);
   CHECK(middle.first == 3);
   CHECK(middle.value[0] == Approx(0.125));
   CHECK(middle.value[1] == Approx(0.75));
   CHECK(middle.value[2] == Approx(0.125));
-  // A GIMP particle strictly inside a cell touches that cell's nodes only, and there it is the linear function.
+  // A GIMP particle strictly inside a cell touches that cell's nodes only, and there it is the linear
+  // function.
   const auto inside = Shape1<ShapeKind::gimp>::at(4.4, 0.25);
   CHECK(inside.first == 4);
   CHECK(inside.value[0] == Approx(0.6));

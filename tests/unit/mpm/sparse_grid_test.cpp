@@ -16,7 +16,8 @@ MpmScene impact(const char* shape, const char* scheme, double x, double y) {
   MpmScene scene;
   scene.shape = shape, scene.scheme = scheme, scene.pace = "step = 0.1";
   scene.tables = body("block", box({x, y}, {x + 14.0, y + 5.0})) +
-                 body("ball", box({x + 4.0, y + 6.0}, {x + 8.0, y + 9.0}), "particles_per_cell = 4\nvelocity = [0.02, -0.1]");
+                 body("ball", box({x + 4.0, y + 6.0}, {x + 8.0, y + 9.0}),
+                      "particles_per_cell = 4\nvelocity = [0.02, -0.1]");
   return scene;
 }
 
@@ -24,14 +25,16 @@ MpmScene impact(const char* shape, const char* scheme, double x, double y) {
 
 TEST_CASE("Two bodies a million cells apart cost only their own blocks", "[mpm][grid]") {
   MpmScene scene;
-  scene.tables = body("here", box({0.0, 0.0}, {10.0, 10.0})) + body("there", box({1e6, 1e6}, {1e6 + 10.0, 1e6 + 10.0}));
+  scene.tables =
+      body("here", box({0.0, 0.0}, {10.0, 10.0})) + body("there", box({1e6, 1e6}, {1e6 + 10.0, 1e6 + 10.0}));
   MpmRun run(scene);
   run.advance(0.2);
   CHECK(run.system.grid.tiles().size() == 8);
   CHECK(run.system.grid.blocks().size() <= 18);
 }
 
-TEST_CASE("Block borders do not change results: scenes moved by whole cells agree to rounding", "[mpm][grid]") {
+TEST_CASE("Block borders do not change results: scenes moved by whole cells agree to rounding",
+          "[mpm][grid]") {
   for (const char* shape : shapes)
     for (const char* scheme : {"usf", "musl"})
       for (const auto& [dx, dy] : {std::pair{8.0, 3.0}, std::pair{-21.0, 5.0}, std::pair{3.0, -40.0}}) {
@@ -44,7 +47,8 @@ TEST_CASE("Block borders do not change results: scenes moved by whole cells agre
           const Particles &a = here.particles(n), &b = there.particles(n);
           for (std::size_t i = 0; i < a.size; ++i)
             worst = std::max({worst, std::abs(a.position[0][i] + dx - b.position[0][i]),
-                              std::abs(a.position[1][i] + dy - b.position[1][i]), std::abs(a.stress[0][i] - b.stress[0][i]),
+                              std::abs(a.position[1][i] + dy - b.position[1][i]),
+                              std::abs(a.stress[0][i] - b.stress[0][i]),
                               std::abs(a.velocity[1][i] - b.velocity[1][i])});
         }
         CAPTURE(worst);
@@ -56,13 +60,15 @@ TEST_CASE("A body that flies a hundred thousand cells keeps its shape and moment
   for (const char* shape : shapes) {
     CAPTURE(shape);
     MpmScene scene;
-    scene.shape = shape, scene.scheme = "musl", scene.pace = "step = 0.5";
-    // Half a cell a step: faster than sound, so that it does not take all day; nothing happens that could be unstable.
-    scene.tables = body("bullet", box({0.0, 0.0}, {2.0, 1.0}), "velocity = [1.0, 0.25]");
+    scene.shape = shape, scene.scheme = "musl", scene.pace = "step = 5e-4";
+    // Half a cell a step, onto and off nodes, at a thousand times the wave speed: elasticity has no time to
+    // amplify rounding (a body that flies slowly has: explicit steps pump a little energy into its vibrations
+    // at every crossing).
+    scene.tables = body("bullet", box({0.0, 0.0}, {2.0, 1.0}), "velocity = [1000.0, 250.0]");
     MpmRun run(scene);
     const auto start = run.particles().position;
     const auto momentum = total_momentum(run.system);
-    run.advance(1e5);
+    run.advance(100.0);
     const Particles& p = run.particles();
     double worst = 0.0, strain = 0.0;
     for (std::size_t i = 0; i < p.size; ++i)
@@ -81,7 +87,9 @@ TEST_CASE("A body that flies a hundred thousand cells keeps its shape and moment
   }
 }
 
-TEST_CASE("The state after a hundred steps of an impact is the same, bit for bit, with one, two and three threads", "[mpm][grid]") {
+TEST_CASE(
+    "The state after a hundred steps of an impact is the same, bit for bit, with one, two and three threads",
+    "[mpm][grid]") {
   const std::string models =
       "[material.elastic.damage]\ntoughness = 0.83e6\nk = 5.0e26\nm = 6\n"
       "[material.elastic.drucker_prager]\nyield = 43.0e6\nbeta = 1.8\n"
@@ -93,8 +101,10 @@ TEST_CASE("The state after a hundred steps of an impact is the same, bit for bit
     const double step = std::string(scheme) == "usl" ? 3e-9 : 3e-8;
     scene.pace = fixed_step(step);
     scene.density = 2500.0, scene.young = 72e9, scene.poisson = 0.25;
-    scene.tables = body("plate", box({0.0, 0.0}, {0.04, 0.005}), "particles_per_cell = 4") +
-                   body("ball", box({0.0, 0.005}, {0.003, 0.011}), "particles_per_cell = 4\nvelocity = [0.0, -200.0]") + models;
+    scene.tables =
+        body("plate", box({0.0, 0.0}, {0.04, 0.005}), "particles_per_cell = 4") +
+        body("ball", box({0.0, 0.005}, {0.003, 0.011}), "particles_per_cell = 4\nvelocity = [0.0, -200.0]") +
+        models;
     MpmRun one(scene, 1), two(scene, 2), three(scene, 3);
     for (MpmRun* run : {&one, &two, &three}) run->advance(100 * step);
     REQUIRE(one.system.step_index == 100);

@@ -23,7 +23,7 @@ void require_fault(const std::vector<std::string>& overrides, std::string_view s
 
 }  // namespace
 
-TEST_CASE("--set replaces scalars, lists, list items and quoted keys", "[scene][overrides]") {
+TEST_CASE("Overrides (--set): replaces scalars, lists, list items and quoted keys", "[scene][overrides]") {
   const Scene scene = scene_with({"time.end = 2e-4", "body.1.velocity.1=-800", "body.0.box.max=[0.4, 0.005]",
                                   "material.\"glass\".damage.m=7", "integrator.scheme=\"musl\""});
   CHECK(scene.end == 2.0e-4);
@@ -35,7 +35,7 @@ TEST_CASE("--set replaces scalars, lists, list items and quoted keys", "[scene][
   CHECK(scene.verbatim == scene_text);
 }
 
-TEST_CASE("--set creates missing keys and tables", "[scene][overrides]") {
+TEST_CASE("Overrides (--set): creates missing keys and tables", "[scene][overrides]") {
   const Scene scene =
       scene_with({"output.every=1e-5", "gravity.acceleration=[0, -9.81]", "time.start=-1e-5",
                   "material.ice.density=917", "material.ice.young=9e9", "material.ice.poisson=0.3"});
@@ -46,7 +46,7 @@ TEST_CASE("--set creates missing keys and tables", "[scene][overrides]") {
   CHECK(scene.materials[2].name == "ice");
 }
 
-TEST_CASE("--set of step and courant replaces the other", "[scene][overrides]") {
+TEST_CASE("Overrides (--set): of step and courant replaces the other", "[scene][overrides]") {
   const Scene courant = scene_with({"integrator.courant=0.1"});
   CHECK_FALSE(courant.integrator.step);
   CHECK(courant.integrator.courant == 0.1);
@@ -63,7 +63,7 @@ TEST_CASE("the later --set wins", "[scene][overrides]") {
         Vector2{5.0, 2.0});
 }
 
-TEST_CASE("--set faults name the argument", "[scene][overrides]") {
+TEST_CASE("Overrides (--set): faults name the argument", "[scene][overrides]") {
   require_fault({"time.end=1", "integrator.stp=1"},
                 "--set 2: key 'integrator.stp': ", "did you mean 'step'?");
   require_fault({"time.end=-1"}, "--set 1: key 'time.end': ", "found -1, expected a time later");
@@ -75,7 +75,7 @@ TEST_CASE("--set faults name the argument", "[scene][overrides]") {
   require_fault({"material.glass.poisson=0.45"}, "--set 1: key 'material.glass.poisson': ", "damage");
 }
 
-TEST_CASE("--set arguments that cannot be applied", "[scene][overrides]") {
+TEST_CASE("Overrides (--set): arguments that cannot be applied", "[scene][overrides]") {
   require_fault({"integrator.scheme=musl"},
                 "--set 1: key 'integrator.scheme': found musl, expected a TOML value",
                 "quote a string: --set 'integrator.scheme=\"musl\"'");

@@ -7,10 +7,11 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// A thin rod (Poisson's ratio 0: c = sqrt(E/rho)) runs into a wall that is a plane of symmetry. A stress wave brings it to rest
-// in L/c and gives it its speed back in another L/c; since the plane holds both ways this repeats: the kinetic energy is a
-// triangle of period 2 L/c.
-TEST_CASE("A thin rod against a symmetry-plane wall: its kinetic energy is a triangle", "[verification][mpm]") {
+// A thin rod (Poisson's ratio 0: c = sqrt(E/rho)) runs into a wall that is a plane of symmetry. A stress wave
+// brings it to rest in L/c and gives it its speed back in another L/c; since the plane holds both ways this
+// repeats: the kinetic energy is a triangle of period 2 L/c.
+TEST_CASE("A thin rod against a symmetry-plane wall: its kinetic energy is a triangle",
+          "[verification][mpm]") {
   constexpr int cells = 200;
   constexpr double length = cells, speed = 1e-4;
   for (const char* shape : {"linear", "gimp"})

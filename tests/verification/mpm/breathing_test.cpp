@@ -7,22 +7,26 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// Free radial vibration, u = A f(k R) cos(w t), w = k c_p. Cylinder in plane strain: f = J1 and no radial traction on the surface
-// gives x J0(x) = (1 - 2 nu)/(1 - nu) J1(x); sphere: f = j1 and x j0(x) = 4 G/M j1(x); x = k R, G/M = (1 - 2 nu)/(2 - 2 nu).
+// Free radial vibration, u = A f(k R) cos(w t), w = k c_p. Cylinder in plane strain: f = J1 and no radial
+// traction on the surface gives x J0(x) = (1 - 2 nu)/(1 - nu) J1(x); sphere: f = j1 and x j0(x) = 4 G/M
+// j1(x); x = k R, G/M = (1 - 2 nu)/(2 - 2 nu).
 
 namespace {
 
 constexpr double ratio = (1.0 - 2.0 * unit_poisson) / (1.0 - unit_poisson);  // 2 G / M
 
 double cylinder_root() {
-  return root([](double x) { return x * std::cyl_bessel_j(0.0, x) - ratio * std::cyl_bessel_j(1.0, x); }, 1.0, 3.0);
+  return root([](double x) { return x * std::cyl_bessel_j(0.0, x) - ratio * std::cyl_bessel_j(1.0, x); }, 1.0,
+              3.0);
 }
 double sphere_root() {
-  return root([](double x) { return x * std::sph_bessel(0U, x) - 2.0 * ratio * std::sph_bessel(1U, x); }, 1.5, 4.0);
+  return root([](double x) { return x * std::sph_bessel(0U, x) - 2.0 * ratio * std::sph_bessel(1U, x); }, 1.5,
+              4.0);
 }
 
-/// Gives every particle the radial velocity 1e-4 f(x R / radius) about the origin, lets the body swing for three periods, and
-/// returns its frequency over the exact one, minus 1. spherical: the distance is measured in r and z.
+/// Gives every particle the radial velocity 1e-4 f(x R / radius) about the origin, lets the body swing for
+/// three periods, and returns its frequency over the exact one, minus 1. spherical: the distance is measured
+/// in r and z.
 template <class Profile>
 double frequency_error(const MpmScene& scene, double radius, double x, bool spherical, Profile profile) {
   MpmRun run(scene);
@@ -65,7 +69,8 @@ double cylinder_error(const std::string& shape, int cells, const std::string& sc
 
 }  // namespace
 
-TEST_CASE("Plane-strain cylinder breathing, axisymmetric: the Bessel frequency, converging with the cell", "[verification][mpm]") {
+TEST_CASE("Plane-strain cylinder breathing, axisymmetric: the Bessel frequency, converging with the cell",
+          "[verification][mpm]") {
   CHECK(cylinder_root() == Approx(2.05).epsilon(0.03));
   for (const char* shape : {"linear", "gimp", "bspline2"}) {
     const double coarse = cylinder_error(shape, 15), fine = cylinder_error(shape, 60);

@@ -54,7 +54,8 @@ TEST_CASE("Two elastic disks collide and part again", "[verification][mpm]") {
       CAPTURE(first_stress, restitution, growth, least, residual);
 
       const double gap = 0.6 * std::sqrt(2.0) - 2.0 * radius, closing = 2.0 * speed * std::sqrt(2.0);
-      // Particles feel each other through common nodes: up to two cell diagonals (splines: three) before they touch.
+      // Particles feel each other through common nodes: up to two cell diagonals (splines: three) before they
+      // touch.
       const double reach = (std::string(shape) == "linear" ? 2.0 : 3.0) * cell * std::sqrt(2.0);
       CHECK(first_stress < gap / closing);
       CHECK(first_stress > (gap - reach) / closing);

@@ -8,8 +8,9 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// Plane standing waves of wavelength 2 L in both directions, started by their velocity: exact for all times in an infinite body.
-// The body is a block of side 4 L, and errors are measured in the middle square of side L before its edges are heard.
+// Plane standing waves of wavelength 2 L in both directions, started by their velocity: exact for all times
+// in an infinite body. The body is a block of side 4 L, and errors are measured in the middle square of side
+// L before its edges are heard.
 //   pressure: v = (sin kx cos ky, cos kx sin ky) cos wt, w = sqrt(2) k c_p
 //   shear:    v = (sin kx cos ky, -cos kx sin ky) cos wt, w = sqrt(2) k c_s
 
@@ -21,15 +22,16 @@ struct Wave {
 };
 const Wave pressure{"pressure", 1.0, 1.0}, shear{"shear", -1.0, std::sqrt(unit_shear)};
 
-/// Relative RMS error of velocities and positions' displacement after 0.35 of a period, with n cells per L. The step shrinks as
-/// the square of the cell: what is left is the error of the discretisation in space.
+/// Relative RMS error of velocities and positions' displacement after 0.35 of a period, with n cells per L.
+/// The step shrinks as the square of the cell: what is left is the error of the discretisation in space.
 double error(const Wave& wave, const std::string& shape, int n, int particles_per_cell, double offset) {
   const double L = n, k = std::numbers::pi / L, frequency = std::numbers::sqrt2 * k * wave.speed, size = 1e-6;
   MpmScene scene;
   scene.shape = shape;
   scene.pace = fixed_step(0.4 * 8.0 / n);
-  scene.tables = body("block", box({-2.0 * L + offset, -2.0 * L + offset}, {2.0 * L + offset, 2.0 * L + offset}),
-                      fmt::format("particles_per_cell = {}", particles_per_cell));
+  scene.tables =
+      body("block", box({-2.0 * L + offset, -2.0 * L + offset}, {2.0 * L + offset, 2.0 * L + offset}),
+           fmt::format("particles_per_cell = {}", particles_per_cell));
   MpmRun run(scene);
   Particles& p = run.particles();
   const std::array<std::vector<double>, 2> start = p.position;
@@ -57,7 +59,8 @@ double error(const Wave& wave, const std::string& shape, int n, int particles_pe
 
 }  // namespace
 
-TEST_CASE("Spatial order: every shape function is of second order on a smooth elastic wave", "[verification][mpm]") {
+TEST_CASE("Spatial order: every shape function is of second order on a smooth elastic wave",
+          "[verification][mpm]") {
   for (const Wave& wave : {pressure, shear})
     for (const char* shape : {"linear", "gimp", "bspline2"})
       for (const int ppc : {1, 4}) {

@@ -9,14 +9,16 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// With exact integration in time the particle system conserves energy for any positions: d/dt of the particles' kinetic energy is
-// sum v_i . f_i = minus the stress power. So what the ledger misses is the schemes' own error, and vanishes with the step.
+// With exact integration in time the particle system conserves energy for any positions: d/dt of the
+// particles' kinetic energy is sum v_i . f_i = minus the stress power. So what the ledger misses is the
+// schemes' own error, and vanishes with the step.
 
 namespace {
 
 constexpr const char* schemes[] = {"usf", "usl", "musl"};
 
-/// A free block with a smooth velocity field, far below the strains at which nonlinear terms would show. drift: its speed.
+/// A free block with a smooth velocity field, far below the strains at which nonlinear terms would show.
+/// drift: its speed.
 MpmRun swinging_block(const std::string& shape, const std::string& scheme, double step, double drift) {
   MpmScene scene;
   scene.shape = shape, scene.scheme = scheme, scene.pace = fixed_step(step);
@@ -25,7 +27,8 @@ MpmRun swinging_block(const std::string& shape, const std::string& scheme, doubl
   MpmRun run(scene);
   Particles& p = run.particles();
   for (std::size_t i = 0; i < p.size; ++i) {
-    const double x = std::numbers::pi * (p.position[0][i] - 0.5) / 10.0, y = std::numbers::pi * (p.position[1][i] - 0.5) / 8.0;
+    const double x = std::numbers::pi * (p.position[0][i] - 0.5) / 10.0,
+                 y = std::numbers::pi * (p.position[1][i] - 0.5) / 8.0;
     p.velocity[0][i] = 1e-6 * (std::cos(x) + 0.5 * std::sin(y)) + drift;
     p.velocity[1][i] = 1e-6 * (0.7 * std::cos(2.0 * y) * std::sin(x));
   }
@@ -64,7 +67,8 @@ TEST_CASE("The energy residual of an elastic body falls with the step, first ord
     }
 }
 
-TEST_CASE("The energy residual falls with the step also when particles travel through cells", "[verification][mpm]") {
+TEST_CASE("The energy residual falls with the step also when particles travel through cells",
+          "[verification][mpm]") {
   const double drift = 1e-6 * 3.0e5;  // 0.3 of the wave speed: six cells in the run
   for (const char* shape : {"gimp", "bspline2"})
     for (const char* scheme : {"usf", "musl"}) {
@@ -76,8 +80,10 @@ TEST_CASE("The energy residual falls with the step also when particles travel th
     }
 }
 
-TEST_CASE("Every step's change of kinetic energy is what the grid's momenta say, to rounding", "[verification][mpm]") {
-  // dK = sum p_i (w_i - v_i) + sum m_p |dv_p|^2 / 2 with the momenta before the forces, for any shape functions and positions.
+TEST_CASE("Every step's change of kinetic energy is what the grid's momenta say, to rounding",
+          "[verification][mpm]") {
+  // dK = sum p_i (w_i - v_i) + sum m_p |dv_p|^2 / 2 with the momenta before the forces, for any shape
+  // functions and positions.
   for (const char* geometry : {"plane-strain", "axisymmetric"})
     for (const char* shape : {"linear", "gimp", "bspline2"}) {
       CAPTURE(geometry, shape);
@@ -100,13 +106,16 @@ TEST_CASE("Every step's change of kinetic energy is what the grid's momenta say,
         using mpm::Field;
         double expected = 0.0;
         for (std::size_t n = 0; n < grid.blocks().size() * mpm::block_nodes; ++n)
-          expected += grid.field(Field::momentum_0)[n] * (grid.field(Field::new_velocity_0)[n] - grid.field(Field::velocity_0)[n]) +
-                      grid.field(Field::momentum_1)[n] * (grid.field(Field::new_velocity_1)[n] - grid.field(Field::velocity_1)[n]);
+          expected += grid.field(Field::momentum_0)[n] *
+                          (grid.field(Field::new_velocity_0)[n] - grid.field(Field::velocity_0)[n]) +
+                      grid.field(Field::momentum_1)[n] *
+                          (grid.field(Field::new_velocity_1)[n] - grid.field(Field::velocity_1)[n]);
         const std::vector<double> after = velocities();
         std::size_t k = 0;
         for (const Body& b : run.system.bodies)
           for (std::size_t i = 0; i < b.particles.size; ++i)
-            for (int c = 0; c < 2; ++c, ++k) expected += 0.5 * b.particles.mass[i] * (after[k] - before[k]) * (after[k] - before[k]);
+            for (int c = 0; c < 2; ++c, ++k)
+              expected += 0.5 * b.particles.mass[i] * (after[k] - before[k]) * (after[k] - before[k]);
         worst = std::max(worst, std::abs(run.system.record.kinetic - kinetic - expected));
         kinetic = run.system.record.kinetic, before = after;
         return true;
@@ -142,14 +151,16 @@ TEST_CASE("USF, USL and MUSL become one as the step vanishes, first order", "[ve
   }
 }
 
-TEST_CASE("A piston's work on an elastic block is found in the block, the better the smaller the step", "[verification][mpm]") {
+TEST_CASE("A piston's work on an elastic block is found in the block, the better the smaller the step",
+          "[verification][mpm]") {
   for (const char* scheme : schemes) {
     const auto residual = [&](double step) {
       MpmScene scene;
       scene.scheme = scheme, scene.pace = fixed_step(step);
       scene.tables = body("block", box({0.0, 0.0}, {12.0, 6.0}), "particles_per_cell = 4") +
                      hold("[-inf, -inf]", "[0, inf]", "\"x\"") + hold("[-inf, -inf]", "[inf, 0]", "\"y\"") +
-                     hold("[-inf, 6]", "[inf, inf]", "\"y\"") + hold("[12, -inf]", "[inf, inf]", "\"x\"", {-1e-5, 0.0});
+                     hold("[-inf, 6]", "[inf, inf]", "\"y\"") +
+                     hold("[12, -inf]", "[inf, inf]", "\"x\"", {-1e-5, 0.0});
       MpmRun run(scene);
       run.advance(40.0);
       const EnergyTotals& e = run.energy();

@@ -22,8 +22,10 @@ double angular_momentum(const Particles& p) {
 
 }  // namespace
 
-TEST_CASE("A stress turns with the body: a full turn in 360 small ones brings it back", "[verification][mpm]") {
-  // Only the strain and stress updates act: velocities stay those of a rigid rotation and particles where they are.
+TEST_CASE("A stress turns with the body: a full turn in 360 small ones brings it back",
+          "[verification][mpm]") {
+  // Only the strain and stress updates act: velocities stay those of a rigid rotation and particles where
+  // they are.
   MpmScene scene;
   scene.tables = body("disk", box({-6.0, -6.0}, {6.0, 6.0}),
                       "velocity_gradient = [[0.0, -1.0], [1.0, 0.0]]\nstress = [-0.01, 0.02, 0.004, 0.003]");
@@ -40,8 +42,9 @@ TEST_CASE("A stress turns with the body: a full turn in 360 small ones brings it
     double worst = 0.0;
     for (std::size_t i = 0; i < p.size; ++i)
       if (std::abs(p.position[0][i]) < 4.0 && std::abs(p.position[1][i]) < 4.0)
-        worst = std::max({worst, std::abs(p.stress[0][i] - expected.rr), std::abs(p.stress[1][i] - expected.zz),
-                          std::abs(p.stress[2][i] - expected.tt), std::abs(p.stress[3][i] - expected.rz)});
+        worst =
+            std::max({worst, std::abs(p.stress[0][i] - expected.rr), std::abs(p.stress[1][i] - expected.zz),
+                      std::abs(p.stress[2][i] - expected.tt), std::abs(p.stress[3][i] - expected.rz)});
     return worst;
   };
   for (int n = 1; n <= 360; ++n) {
@@ -53,7 +56,8 @@ TEST_CASE("A stress turns with the body: a full turn in 360 small ones brings it
 
 namespace {
 
-/// How far a quarter turn of a free disk is from rigid: largest displacement error in cells, relative changes of the rest.
+/// How far a quarter turn of a free disk is from rigid: largest displacement error in cells, relative changes
+/// of the rest.
 struct TurnError {
   double place, momentum, kinetic;
 };
@@ -62,8 +66,9 @@ TurnError quarter_turn(const char* shape, const char* scheme, double radius) {
   const double rate = 0.02 / radius;  // the rim runs at 2 % of the wave speed
   MpmScene scene;
   scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.5";
-  scene.tables = body("disk", disk({0.0, 0.0}, radius),
-                      fmt::format("particles_per_cell = 4\nvelocity_gradient = [[0.0, {}], [{}, 0.0]]", -rate, rate));
+  scene.tables =
+      body("disk", disk({0.0, 0.0}, radius),
+           fmt::format("particles_per_cell = 4\nvelocity_gradient = [[0.0, {}], [{}, 0.0]]", -rate, rate));
   MpmRun run(scene);
   const Particles& p = run.particles();
   const std::array<std::vector<double>, 2> start = p.position;
@@ -77,14 +82,16 @@ TurnError quarter_turn(const char* shape, const char* scheme, double radius) {
 
 }  // namespace
 
-// Particles move with the grid's velocity, which is a smoothed one: at a free rim they lag by a fraction of a cell. So errors of a
-// turn are of first order in cell / radius.
-TEST_CASE("Rigid rotation: a quarter turn keeps energy, angular momentum and shape, the better the finer the grid",
-          "[verification][mpm]") {
+// Particles move with the grid's velocity, which is a smoothed one: at a free rim they lag by a fraction of a
+// cell. So errors of a turn are of first order in cell / radius.
+TEST_CASE(
+    "Rigid rotation: a quarter turn keeps energy, angular momentum and shape, the better the finer the grid",
+    "[verification][mpm]") {
   for (const char* shape : {"linear", "gimp", "bspline2"})
     for (const char* scheme : {"usf", "musl"}) {  // USL: unstable, particles come near empty nodes
       const TurnError coarse = quarter_turn(shape, scheme, 5.0), fine = quarter_turn(shape, scheme, 10.0);
-      CAPTURE(shape, scheme, coarse.place, coarse.momentum, coarse.kinetic, fine.place, fine.momentum, fine.kinetic);
+      CAPTURE(shape, scheme, coarse.place, coarse.momentum, coarse.kinetic, fine.place, fine.momentum,
+              fine.kinetic);
       CHECK(fine.place < 1.0);
       CHECK(std::abs(fine.momentum) < 0.05);
       CHECK(std::abs(fine.kinetic) < 0.05);
@@ -107,7 +114,8 @@ TEST_CASE("Free fall: the work of gravity is the kinetic energy, and the path th
       run.advance(steps * step);
       const Particles& p = run.particles();
       // Velocity first, then position: x_n = -g dt^2 n (n + 1) / 2, first order away from -g t^2 / 2.
-      const double fallen = -g * step * step * 0.5 * steps * (steps + 1), parabola = -0.5 * g * std::pow(steps * step, 2);
+      const double fallen = -g * step * step * 0.5 * steps * (steps + 1),
+                   parabola = -0.5 * g * std::pow(steps * step, 2);
       CHECK(fallen == Approx(parabola).epsilon(1.01 / steps));
       for (std::size_t i = 0; i < p.size; ++i) {
         REQUIRE(p.position[1][i] - start[i] == Approx(fallen).epsilon(1e-12));
@@ -130,7 +138,8 @@ TEST_CASE("Momentum is conserved to rounding in a collision", "[verification][mp
         MpmScene scene;
         scene.geometry = geometry, scene.shape = shape, scene.scheme = scheme, scene.pace = "step = 0.02";
         scene.tables = body("plate", box({0.0, 0.0}, {12.0, 3.0}), "particles_per_cell = 4") +
-                       body("ball", disk({0.0, 6.0}, 2.9), axisymmetric ? "velocity = [0.0, -0.05]" : "velocity = [0.01, -0.05]");
+                       body("ball", disk({0.0, 6.0}, 2.9),
+                            axisymmetric ? "velocity = [0.0, -0.05]" : "velocity = [0.01, -0.05]");
         MpmRun run(scene);
         const auto before = total_momentum(run.system);
         // USL is soon unstable where particles come near empty nodes; a short contact must do.

@@ -8,8 +8,8 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// A bar in uniaxial strain (all y held) runs into a wall at x = 0: behind a front that travels at c = sqrt(M/rho) the stress is
-// -rho c v. Reference values are of a real material, so that no unit factor hides.
+// A bar in uniaxial strain (all y held) runs into a wall at x = 0: behind a front that travels at c =
+// sqrt(M/rho) the stress is -rho c v. Reference values are of a real material, so that no unit factor hides.
 
 namespace {
 
@@ -18,14 +18,15 @@ constexpr double density = 2500.0, young = 72.0e9, poisson = 0.25, cell = 1.0e-3
 constexpr double speed = 1.0;
 constexpr int cells = 300;
 
-MpmScene bar_on_wall(const std::string& shape, const std::string& scheme, int particles_per_cell, double speed_at_wall,
-                     double speed_of_bar) {
+MpmScene bar_on_wall(const std::string& shape, const std::string& scheme, int particles_per_cell,
+                     double speed_at_wall, double speed_of_bar) {
   MpmScene scene;
   scene.cell = cell, scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.3";
   scene.density = density, scene.young = young, scene.poisson = poisson;
-  scene.tables = hold_everywhere("y") + hold("[-inf, -inf]", "[0, inf]", R"("x", "y")", {speed_at_wall, 0.0}) +
-                 body("bar", box({0.0, 0.0}, {cells * cell, cell}),
-                      fmt::format("particles_per_cell = {}\nvelocity = [{}, 0.0]", particles_per_cell, speed_of_bar));
+  scene.tables =
+      hold_everywhere("y") + hold("[-inf, -inf]", "[0, inf]", R"("x", "y")", {speed_at_wall, 0.0}) +
+      body("bar", box({0.0, 0.0}, {cells * cell, cell}),
+           fmt::format("particles_per_cell = {}\nvelocity = [{}, 0.0]", particles_per_cell, speed_of_bar));
   return scene;
 }
 
@@ -33,7 +34,8 @@ MpmScene bar_on_wall(const std::string& shape, const std::string& scheme, int pa
 double mean_stress(const Particles& p, double from, double to) {
   double sum = 0.0, mass = 0.0;
   for (std::size_t i = 0; i < p.size; ++i)
-    if (p.position[0][i] >= from && p.position[0][i] < to) sum += p.mass[i] * p.stress[0][i], mass += p.mass[i];
+    if (p.position[0][i] >= from && p.position[0][i] < to)
+      sum += p.mass[i] * p.stress[0][i], mass += p.mass[i];
   return sum / mass;
 }
 
@@ -68,7 +70,8 @@ TEST_CASE("Uniaxial strain wave: speed and amplitude rho c v within 1 %", "[veri
         const double first = front(run.particles(), plateau);
         run.advance(late);
         const double second = front(run.particles(), plateau);
-        const double amplitude_error = mean_stress(run.particles(), 20.0 * cell, 220.0 * cell) / plateau - 1.0;
+        const double amplitude_error =
+            mean_stress(run.particles(), 20.0 * cell, 220.0 * cell) / plateau - 1.0;
         const double speed_error = (second - first) / (late - early) / c - 1.0;
         CAPTURE(amplitude_error, speed_error);
         CHECK(std::abs(amplitude_error) < 0.01);
@@ -76,8 +79,9 @@ TEST_CASE("Uniaxial strain wave: speed and amplitude rho c v within 1 %", "[veri
       }
 }
 
-TEST_CASE("A piston's wave: the work of a prescribed velocity is rho c v^2 per time, and all of it is found again",
-          "[verification][mpm]") {
+TEST_CASE(
+    "A piston's wave: the work of a prescribed velocity is rho c v^2 per time, and all of it is found again",
+    "[verification][mpm]") {
   const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
   const double c = std::sqrt(modulus / density);
   // The wall moves: its nodes drive the bar, which stays well within its first cell (0.04 cells of travel).

@@ -7,10 +7,11 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// The copper bar of Taylor's test as finite-element codes are compared on it: 32.4 mm long, radius 3.2 mm, 227 m/s against a
-// frictionless wall, E = 117 GPa, nu = 0.35, yield 400 MPa, tangent modulus 100 MPa. After 80 us published computations give a
-// length of 21.3 to 21.5 mm and a foot radius of 6.9 to 7.3 mm.
-// The strain of eq. 23 is sqrt(3/2) times the usual equivalent plastic strain, so that modulus divides by sqrt(3/2).
+// The copper bar of Taylor's test as finite-element codes are compared on it: 32.4 mm long, radius 3.2 mm,
+// 227 m/s against a frictionless wall, E = 117 GPa, nu = 0.35, yield 400 MPa, tangent modulus 100 MPa. After
+// 80 us published computations give a length of 21.3 to 21.5 mm and a foot radius of 6.9 to 7.3 mm. The
+// strain of eq. 23 is sqrt(3/2) times the usual equivalent plastic strain, so that modulus divides by
+// sqrt(3/2).
 
 namespace {
 
@@ -18,19 +19,23 @@ constexpr double cell = 0.4e-3, length = 32.4e-3, radius = 3.2e-3;
 
 MpmScene bar(const std::string& shape, const std::string& scheme) {
   MpmScene scene;
-  scene.geometry = "axisymmetric", scene.cell = cell, scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.4";
+  scene.geometry = "axisymmetric", scene.cell = cell, scene.shape = shape, scene.scheme = scheme,
+  scene.pace = "courant = 0.4";
   scene.density = 8930.0, scene.young = 117.0e9, scene.poisson = 0.35;
-  scene.tables = body("bar", box({0.0, 0.0}, {radius, length}), "particles_per_cell = 4\nvelocity = [0.0, -227.0]") +
-                 hold("[-inf, -inf]", "[inf, 0]", "\"z\"") +
-                 "[material.elastic.von_mises]\nyield = 400e6\npeak = 4e9\nhardening = 81.65e6\nsoftening = 0.0\n";
+  scene.tables =
+      body("bar", box({0.0, 0.0}, {radius, length}), "particles_per_cell = 4\nvelocity = [0.0, -227.0]") +
+      hold("[-inf, -inf]", "[inf, 0]", "\"z\"") +
+      "[material.elastic.von_mises]\nyield = 400e6\npeak = 4e9\nhardening = 81.65e6\nsoftening = 0.0\n";
   return scene;
 }
 
 }  // namespace
 
 TEST_CASE("Taylor bar: length, foot radius and volume", "[verification][mpm]") {
-  for (const char* shape : {"linear", "gimp"}) {
-    MpmRun run(bar(shape, "musl"));
+  // Linear shape functions: wider ones reach held nodes behind the wall, which then is no plane of symmetry
+  // but a stiff layer.
+  for (const char* scheme : {"usf", "musl"}) {
+    MpmRun run(bar("linear", scheme));
     const Particles& p = run.particles();
     double initial_volume = 0.0;
     for (std::size_t i = 0; i < p.size; ++i) initial_volume += p.mass[i] / 8930.0;
@@ -41,13 +46,16 @@ TEST_CASE("Taylor bar: length, foot radius and volume", "[verification][mpm]") {
       top = std::max(top, p.position[1][i]);
       lowest = std::min(lowest, p.position[1][i]);
       foot = std::max(foot, p.position[0][i]);
-      volume += p.mass[i] / 8930.0 * (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+      volume += p.mass[i] / 8930.0 *
+                (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
       largest_strain = std::max(largest_strain, plastic[i]);
     }
-    // Particles are centres: the top's half height is elastic still, the foot's grows with the hoop stretch squared less.
+    // Particles are centres of their material.
     const double final_length = top + 0.25 * cell, foot_radius = foot + 0.25 * cell;
-    const double kinetic = run.energy().kinetic / run.energy().initial, residual = run.energy().relative_residual();
-    CAPTURE(shape, final_length, foot_radius, lowest, largest_strain, volume / initial_volume, kinetic, residual);
+    const double kinetic = run.energy().kinetic / run.energy().initial,
+                 residual = run.energy().relative_residual();
+    CAPTURE(scheme, final_length, foot_radius, lowest, largest_strain, volume / initial_volume, kinetic,
+            residual);
     CHECK(final_length == Approx(21.4e-3).epsilon(0.02));
     CHECK(foot_radius > 6.5e-3);
     CHECK(foot_radius < 7.5e-3);

@@ -1,0 +1,82 @@
+#include <cmath>
+#include <limits>
+
+#include "analysis/energy_ledger.hpp"
+#include "catch.hpp"
+#include "support/mpm_run.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+MpmScene stressed(const char* geometry, const std::string& more) {
+  MpmScene scene;
+  scene.geometry = geometry;
+  scene.tables = body("block", box({0.0, 0.0}, {4.0, 2.0}), more);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("The ledger opens with the kinetic and elastic energy of the scene", "[analysis]") {
+  MpmRun run(stressed("plane-strain", "velocity = [3.0, 4.0]\nstress = [1e-3, 0.0, 0.0, 2e-3]"));
+  // s:s/2E form: (1 + nu)/E s:s - nu/E tr^2, halved; volume 8 to first order in strain.
+  const double nu = unit_poisson, E = unit_young, squared = 1e-6 + 2.0 * 4e-6;
+  const double elastic = 0.5 * 8.0 * ((1.0 + nu) * squared - nu * 1e-6) / E;
+  CHECK(run.energy().kinetic == Approx(0.5 * 8.0 * 25.0).epsilon(1e-3));
+  CHECK(run.energy().elastic == Approx(elastic).epsilon(2e-3));
+  CHECK(run.energy().initial == run.energy().kinetic + run.energy().elastic);
+  CHECK(run.ledger.growth() == Approx(1.0));
+  CHECK(run.energy().residual() == 0.0);
+}
+
+TEST_CASE("Axisymmetric energies are per radian", "[analysis]") {
+  MpmRun run(stressed("axisymmetric", "velocity = [0.0, 1.0]"));
+  CHECK(run.energy().kinetic == Approx(0.5 * 0.5 * 16.0 * 2.0));  // r^2/2 x height per radian
+  const EnergyTotals whole = scaled(run.energy(), 2.0);
+  CHECK(whole.kinetic == 2.0 * run.energy().kinetic);
+  CHECK(whole.initial == 2.0 * run.energy().initial);
+  CHECK(whole.max_growth == run.energy().max_growth);
+}
+
+TEST_CASE("The ledger books what a step's record says", "[analysis]") {
+  MpmRun run(stressed("plane-strain", "velocity = [1.0, 0.0]"));
+  System& s = run.system;
+  EnergyLedger ledger(s);
+  const double initial = ledger.totals().initial;
+  s.record.kinetic = 0.5 * initial, s.record.elastic = 0.7 * initial;
+  s.record.dissipated = {1.0, 2.0, 3.0, 0.5};
+  s.record.external_work = 4.0;
+  ledger.book(s);
+  ledger.book(s);
+  const EnergyTotals& t = ledger.totals();
+  CHECK(t.plastic == 2.0);
+  CHECK(t.damage == 4.0);
+  CHECK(t.fracture == 6.0);
+  CHECK(t.snap_back == 1.0);
+  CHECK(t.external == 8.0);
+  CHECK(t.max_growth == Approx(1.2));
+  CHECK(ledger.growth() == Approx(1.2 * initial / (initial + 8.0)));
+  CHECK(t.residual() == Approx(initial + 8.0 - 1.2 * initial - 12.0));
+  CHECK(t.relative_residual() == Approx(t.residual() / std::max(initial, 8.0)));
+  // Snap-back is part of fracture: not subtracted twice. Work taken out does not excuse growth.
+  s.record.external_work = -100.0;
+  ledger.book(s);
+  CHECK(ledger.growth() == Approx(1.2));
+}
+
+TEST_CASE("A scene at rest has growth 1, and nothing hides a value that is not finite", "[analysis]") {
+  MpmRun run(stressed("plane-strain", ""));
+  System& s = run.system;
+  EnergyLedger ledger(s);
+  CHECK(ledger.growth() == 1.0);
+  CHECK(ledger.totals().relative_residual() == 0.0);
+  s.record.kinetic = std::numeric_limits<double>::quiet_NaN();
+  ledger.book(s);
+  CHECK_FALSE(ledger.growth() <= 1.5);
+  EnergyLedger other(EnergyTotals{});
+  s.record.kinetic = std::numeric_limits<double>::infinity();
+  other.book(s);
+  CHECK_FALSE(other.growth() <= 1.5);
+}

@@ -1,0 +1,165 @@
+#include <cmath>
+#include <numbers>
+
+#include "analysis/failure.hpp"
+#include "analysis/fragments.hpp"
+#include "catch.hpp"
+#include "support/mpm_run.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+const std::string models =
+    "[material.elastic.damage]\ntoughness = 0.83e6\nk = 5.0e26\nm = 6\n"
+    "[material.elastic.decohesion]\nopening = 5.0e-6\nmode_ratio = 50.0\n"
+    "[material.hard]\ndensity = 2.0\nyoung = 1.0\npoisson = 0.25\n";
+
+/// A brittle plate 20 x 4 under a hard punch 4 x 4 that comes from above, one particle a cell.
+MpmScene punch(const char* geometry) {
+  MpmScene scene;
+  scene.geometry = geometry;
+  const double left = std::string(geometry) == "axisymmetric" ? 0.0 : -2.0;
+  scene.tables = body("plate", box({5.0 * left, 0.0}, {5.0 * left + 20.0, 4.0})) +
+                 "[[body]]\nname = \"punch\"\nmaterial = \"hard\"\n" + box({left, 4.0}, {left + 4.0, 8.0}) +
+                 "\nvelocity = [0.0, -1.0]\n" + models;
+  return scene;
+}
+
+std::vector<double>& variable(MpmRun& run, Variable v) {
+  return run.particles().variables[static_cast<std::size_t>(v)];
+}
+void separate(MpmRun& run, std::size_t particle) {
+  variable(run, Variable::decohesion)[particle] = 1.0;
+  variable(run, Variable::effective_length)[particle] = 1.0;
+}
+/// Separates the plate's particles with |x - at| < half.
+void cut(MpmRun& run, double at, double half) {
+  for (std::size_t i = 0; i < run.particles().size; ++i)
+    if (std::abs(run.particles().position[0][i] - at) < half) separate(run, i);
+}
+
+}  // namespace
+
+TEST_CASE("An intact plate is one piece; bodies that cannot separate are none", "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  const auto pieces = connected_pieces(run.system);
+  REQUIRE(pieces.size() == 1);
+  CHECK(pieces[0].body == 0);
+  CHECK(pieces[0].particles.size() == 80);
+}
+
+TEST_CASE("A crack one particle wide parts the plate; one with a bridge does not", "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  cut(run, -4.5, 0.1);
+  auto pieces = connected_pieces(run.system);
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].particles.size() == 56);  // 14 and 5 columns of 4
+  CHECK(pieces[1].particles.size() == 20);
+  for (std::size_t i = 0; i < run.particles().size; ++i)
+    if (run.particles().position[0][i] == -4.5 && run.particles().position[1][i] == 0.5)
+      variable(run, Variable::decohesion)[i] = 0.999;
+  pieces = connected_pieces(run.system);
+  REQUIRE(pieces.size() == 1);
+  CHECK(pieces[0].particles.size() == 77);
+}
+
+TEST_CASE("Pieces join within a cell and a half and not beyond", "[analysis]") {
+  for (const auto& [gap, expected] : {std::pair{0.49, std::size_t{1}}, std::pair{0.51, std::size_t{2}}}) {
+    MpmRun run(punch("plane-strain"));
+    for (double& x : run.particles().position[0])
+      if (x > 0.0) x += gap;  // neighbours at -0.5 and 0.5 + gap
+    CHECK(connected_pieces(run.system).size() == expected);
+  }
+}
+
+TEST_CASE("A piece's mass, centre and velocity; axisymmetric masses are of the whole ring", "[analysis]") {
+  MpmRun run(punch("axisymmetric"));
+  cut(run, 9.5, 0.1);
+  for (std::size_t i = 0; i < run.particles().size; ++i)
+    run.particles().velocity[1][i] = run.particles().position[0][i] > 9.5 ? 7.0 : 0.0;
+  const std::vector<Fragment> f = fragments(run.system, connected_pieces(run.system));
+  REQUIRE(f.size() == 2);
+  CHECK(f[0].mass == Approx(std::numbers::pi * (400.0 - 100.0) * 4.0));
+  CHECK(f[1].mass == Approx(std::numbers::pi * 81.0 * 4.0));
+  CHECK(f[0].particles == 40);
+  CHECK(f[0].velocity[1] == Approx(7.0));
+  CHECK(f[0].centre[1] == Approx(2.0));
+  CHECK(f[1].centre[0] == Approx(6.0).epsilon(0.01));  // 2 R / 3 in mass
+  CHECK(f[0].body == "plate");
+}
+
+TEST_CASE("First events are the earliest inside their steps, and the fronts the farthest", "[analysis]") {
+  MpmRun run(punch("axisymmetric"));
+  System& s = run.system;
+  FailureAnalysis failure(s);
+  CHECK_FALSE(failure.report(s, false).first_localisation);
+  s.time = 1.0;
+  s.record.events = {{0, 7, {EventKind::localisation, 0.8}},
+                     {0, 3, {EventKind::localisation, 0.3}},
+                     {0, 5, {EventKind::yield, 0.1}}};
+  failure.observe(s, 0.5);
+  s.time = 1.5;
+  s.record.events = {{0, 9, {EventKind::localisation, 0.0}}, {0, 9, {EventKind::separation, 0.5}}};
+  variable(run, Variable::crack_density)[12] = 0.01;
+  variable(run, Variable::crack_density)[15] = 0.4;
+  separate(run, 12);
+  variable(run, Variable::effective_length)[17] = 1.0;
+  variable(run, Variable::opening_n)[17] = 3e-6, variable(run, Variable::opening_t)[17] = -4e-6;
+  failure.observe(s, 0.5);
+  const FailureReport r = failure.report(s, false);
+  REQUIRE((r.first_localisation && r.first_separation && r.first_damage));
+  CHECK(r.first_localisation->time == Approx(0.65));
+  CHECK(r.first_localisation->r == 3.5);
+  CHECK(r.first_localisation->body == "plate");
+  CHECK(r.first_separation->time == Approx(1.25));
+  CHECK(r.first_damage->time == 1.5);
+  CHECK(r.first_damage->r == 12.5);
+  CHECK(r.localised == 2);
+  CHECK(r.separated == 1);
+  CHECK(*r.localised_radius_max == 17.5);
+  CHECK(*r.damage_front_radius == 15.5);  // D passes 0.1 at 0.4, not at 0.01
+  CHECK(*r.max_opening == Approx(5e-6));
+  CHECK(*r.max_opening_radius == 17.5);
+  CHECK_FALSE(r.perforated);  // not asked for
+}
+
+TEST_CASE("Perforation: the punch is through and the target's main piece has left its column", "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  System& s = run.system;
+  const FailureAnalysis failure(s);
+  const auto perforated = [&] { return failure.report(s, true).perforated; };
+  CHECK(perforated() == false);
+  // The plug (columns -1.5 .. 1.5) is cut out and driven along; the punch's front must pass the far face by a
+  // cell.
+  cut(run, -2.5, 0.1), cut(run, 2.5, 0.1);
+  CHECK(connected_pieces(s).size() == 3);
+  const auto drive = [&](double by) {
+    for (double& z : s.bodies[1].particles.position[1]) z -= by;
+    for (std::size_t i = 0; i < run.particles().size; ++i)
+      if (std::abs(run.particles().position[0][i]) < 2.0) run.particles().position[1][i] -= by;
+  };
+  drive(4.0);
+  CHECK(perforated() == false);
+  drive(2.0);
+  CHECK(perforated() == true);
+}
+
+TEST_CASE(
+    "A target that the punch has left behind but whose main piece still fills the column is not perforated",
+    "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  System& s = run.system;
+  const FailureAnalysis failure(s);
+  for (double& z : s.bodies[1].particles.position[1]) z -= 20.0;
+  CHECK(failure.report(s, true).perforated == false);
+}
+
+TEST_CASE("A scene without projectile or target has no answer to perforation", "[analysis]") {
+  MpmScene scene;
+  scene.tables = body("plate", box({0.0, 0.0}, {4.0, 4.0})) + models;
+  MpmRun run(scene);
+  const FailureAnalysis failure(run.system);
+  CHECK_FALSE(failure.report(run.system, true).perforated.has_value());
+}
