@@ -63,7 +63,9 @@ double j1_sphere(double x) {
 double cylinder_error(const std::string& shape, int cells, const std::string& scheme = "usf") {
   MpmScene scene;
   scene.geometry = "axisymmetric", scene.shape = shape, scene.scheme = scheme, scene.pace = "courant = 0.2";
-  scene.tables = body("cylinder", box({0.0, 0.0}, {static_cast<double>(cells), 1.0})) + hold_everywhere("z");
+  scene.tables =
+      body("cylinder", box({0.0, 0.0}, {static_cast<double>(cells), 1.0}), "particles_per_cell = 4") +
+      hold_everywhere("z");
   return frequency_error(scene, cells, cylinder_root(), false, j1_cylinder);
 }
 
@@ -71,18 +73,18 @@ double cylinder_error(const std::string& shape, int cells, const std::string& sc
 
 TEST_CASE("Plane-strain cylinder breathing, axisymmetric: the Bessel frequency, converging with the cell",
           "[verification][mpm]") {
-  CHECK(cylinder_root() == Approx(2.05).epsilon(0.03));
+  CHECK(cylinder_root() == Approx(2.0694).epsilon(1e-4));
   for (const char* shape : {"linear", "gimp", "bspline2"}) {
     const double coarse = cylinder_error(shape, 15), fine = cylinder_error(shape, 60);
     CAPTURE(shape, coarse, fine);
-    CHECK(std::abs(coarse) < 0.06);
-    CHECK(std::abs(fine) < 0.015);
-    CHECK(order(std::abs(coarse), std::abs(fine), 4.0) > 0.8);
+    CHECK(std::abs(coarse) < 1e-3);
+    CHECK(std::abs(fine) < 1e-4);
+    CHECK(order(std::abs(coarse), std::abs(fine), 4.0) > 1.7);
   }
   for (const char* scheme : {"usl", "musl"}) {
     const double error = cylinder_error("linear", 60, scheme);
     CAPTURE(scheme, error);
-    CHECK(std::abs(error) < 0.015);
+    CHECK(std::abs(error) < 1e-4);
   }
 }
 
@@ -91,7 +93,7 @@ TEST_CASE("Plane-strain cylinder breathing on the (x, y) grid", "[verification][
   scene.tables = body("disk", disk({0.0, 0.0}, 20.0), "particles_per_cell = 4");
   const double error = frequency_error(scene, 20.0, cylinder_root(), true, j1_cylinder);
   CAPTURE(error);
-  CHECK(std::abs(error) < 0.02);
+  CHECK(std::abs(error) < 0.005);
 }
 
 TEST_CASE("Sphere breathing about the axis", "[verification][mpm]") {
@@ -101,6 +103,6 @@ TEST_CASE("Sphere breathing about the axis", "[verification][mpm]") {
     scene.tables = body("sphere", disk({0.0, 0.0}, 20.0), "particles_per_cell = 4");
     const double error = frequency_error(scene, 20.0, sphere_root(), true, j1_sphere);
     CAPTURE(shape, error);
-    CHECK(std::abs(error) < 0.025);
+    CHECK(std::abs(error) < 0.005);
   }
 }

@@ -28,7 +28,7 @@ double error(const Wave& wave, const std::string& shape, int n, int particles_pe
   const double L = n, k = std::numbers::pi / L, frequency = std::numbers::sqrt2 * k * wave.speed, size = 1e-6;
   MpmScene scene;
   scene.shape = shape;
-  scene.pace = fixed_step(0.4 * 8.0 / n);
+  scene.pace = fixed_step(0.1 * 8.0 / n);
   scene.tables =
       body("block", box({-2.0 * L + offset, -2.0 * L + offset}, {2.0 * L + offset, 2.0 * L + offset}),
            fmt::format("particles_per_cell = {}", particles_per_cell));
@@ -67,7 +67,7 @@ TEST_CASE("Spatial order: every shape function is of second order on a smooth el
         const double e8 = error(wave, shape, 8, ppc, 0.0), e16 = error(wave, shape, 16, ppc, 0.0);
         const double measured = order(e8, e16);
         CAPTURE(wave.name, shape, ppc, e8, e16, measured);
-        CHECK(e16 < 0.08);  // 16 cells to half a wavelength
+        CHECK(e16 < 0.03);  // 16 cells to half a wavelength
         CHECK(measured > 1.8);
         CHECK(measured < 2.4);
       }
