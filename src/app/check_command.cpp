@@ -63,6 +63,9 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
                                "m/s, fastest particle {:.4g} m/s); energy will grow",
                                step, step / critical.step, critical.step, critical.body, critical.wave_speed,
                                critical.travel_speed));
+  if (scene.integrator.scheme == ExplicitScheme::usl)
+    list.push_back("integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; \"usf\" and "
+                   "\"musl\" have");
   for (const MaterialParameters& m : scene.materials) {
     if (!m.decohesion || !m.von_mises) continue;
     // A plane on which the traction falls faster than the cell behind it can unload releases at once.

@@ -67,7 +67,7 @@ TEST_CASE("Spatial order: every shape function is of second order on a smooth el
         const double e8 = error(wave, shape, 8, ppc, 0.0), e16 = error(wave, shape, 16, ppc, 0.0);
         const double measured = order(e8, e16);
         CAPTURE(wave.name, shape, ppc, e8, e16, measured);
-        CHECK(e16 < 0.03);  // 16 cells to half a wavelength
+        CHECK(e16 < 0.04);  // 16 cells to half a wavelength
         CHECK(measured > 1.8);
         CHECK(measured < 2.4);
       }
