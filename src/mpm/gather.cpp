@@ -1,5 +1,3 @@
-#include <atomic>
-
 #include "mpm/tile.hpp"
 #include "mpm/transfer.hpp"
 
@@ -13,7 +11,7 @@ constexpr std::size_t momentum_slot = 1;
 
 /// What the particles of a tile contribute to the record of the step.
 struct TileSums {
-  double kinetic = 0.0, largest_squared_speed = 0.0;
+  double kinetic = 0.0;
   bool stale = false;
 };
 
@@ -104,9 +102,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
       }
       if constexpr (P::velocity) {
         const double v0 = p.velocity[0][i] += dv0, v1 = p.velocity[1][i] += dv1;
-        const double squared = v0 * v0 + v1 * v1;
-        sums.kinetic += 0.5 * p.mass[i] * squared;
-        if (!(squared <= sums.largest_squared_speed)) sums.largest_squared_speed = squared;  // NaN gets through
+        sums.kinetic += 0.5 * p.mass[i] * (v0 * v0 + v1 * v1);
       }
       if constexpr (P::rescatter) {
         const double mv0 = p.mass[i] * p.velocity[0][i], mv1 = p.mass[i] * p.velocity[1][i];
@@ -144,13 +140,8 @@ void gather_all(System& system, double duration) {
     });
   });
   if constexpr (Plan<what>::velocity) {
-    double kinetic = 0.0, largest = 0.0;
-    for (const TileSums& s : sums) {
-      kinetic += s.kinetic;
-      if (!(s.largest_squared_speed <= largest)) largest = s.largest_squared_speed;
-    }
-    system.record.kinetic = kinetic;
-    system.record.largest_speed = std::sqrt(largest);
+    system.record.kinetic = 0.0;
+    for (const TileSums& s : sums) system.record.kinetic += s.kinetic;
   }
   if constexpr (Plan<what>::position)
     for (const TileSums& s : sums) system.grid_is_stale |= s.stale;

@@ -23,7 +23,6 @@ struct StepRecord {
   double elastic = 0.0;            ///< stored, at the end of the step
   Dissipation dissipated;          ///< in the step
   double external_work = 0.0;      ///< of gravity and prescribed velocities in the step
-  double largest_speed = 0.0;      ///< m/s
   std::vector<BodyEvent> events;
 };
 

@@ -72,7 +72,7 @@ TEST_CASE("A velocity that is not finite is seen: by the energy at once, by the 
   };
   run.advance(1.0);
   CHECK(seen);
-  CHECK(std::isnan(run.system.record.largest_speed));
+  CHECK(std::isnan(run.system.record.kinetic));
   run.watch = nullptr;
   CHECK_THROWS_AS(run.advance(1.0), ComputationError);
 }
