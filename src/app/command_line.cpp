@@ -9,6 +9,7 @@
 #include "app/point_command.hpp"
 #include "app/run_command.hpp"
 #include "mpm/computation_error.hpp"
+#include "output/compare.hpp"
 #include "output/info.hpp"
 #include "output/provenance.hpp"
 #include "output/reference_page.hpp"
@@ -91,7 +92,7 @@ int command_line(int argc, char** argv) {
   info_command.add_flag("--json", json, "print JSON");
 
   std::vector<std::string> compared;
-  CLI::App& compare_command = *program.add_subcommand("compare", "differences between two results (not available in this version)");
+  CLI::App& compare_command = *program.add_subcommand("compare", "differences between two results: quantities, and fields at common times");
   compare_command.add_option("RESULTS", compared, "two results")->expected(2);
   compare_command.add_flag("--json", json, "print JSON");
 
@@ -102,7 +103,9 @@ int command_line(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? exit_done : exit_input;
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help
+    fmt::print(stderr, "error: {} (see vitrum --help)\n", error.what());
+    return exit_input;
   }
   if (version) {
     fmt::print("{}", output::version_text());
@@ -118,8 +121,10 @@ int command_line(int argc, char** argv) {
     });
   }
   if (compare_command) {
-    fmt::print(stderr, "error: command 'compare' is not available in this version\n");
-    return exit_input;
+    return guarded([&] {
+      fmt::print("{}", output::comparison_text(output::compare_results(compared[0], compared[1]), json));
+      return exit_done;
+    });
   }
   if (reference_command) {
     fmt::print("{}", result_page ? output::result_reference() : scene_reference());

@@ -42,6 +42,12 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
                const Scene& scene) {
   const auto per_side = static_cast<int>(std::lround(std::sqrt(definition.particles_per_cell)));
   const bool axisymmetric = scene.geometry == Geometry::axisymmetric;
+  // Particles are numbered with 32 bits; far beyond, seeding alone would not end.
+  constexpr double most = 4.0e9;
+  if (const double count = most_seeds(definition.shape, scene.cell, per_side); count > most)
+    throw InputError(fmt::format(
+        "body '{}': its shape takes up to {:.3g} particles with cells of {} m and {} particles per cell; expected at most {:g}",
+        definition.name, count, scene.cell, definition.particles_per_cell, most));
   std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side);
   // A disk about a point of the axis stands for a sphere: what lies at r <= 0 is its mirror image.
   if (axisymmetric) std::erase_if(seeds, [](const Seed& s) { return !(s.position[0] > 0.0); });

@@ -33,7 +33,8 @@ void require_available(const TableReader& table, std::span<const std::string_vie
 
 }  // namespace
 
-void read_integrator(const TableReader& document, IntegratorDefinition& integrator) {
+void read_integrator(const TableReader& document, Scene& scene) {
+  IntegratorDefinition& integrator = scene.integrator;
   const auto table = document.table("integrator", keys::integrator());
   if (!table) return;
   if (table->read_choice("method", integrator.method))
@@ -41,6 +42,7 @@ void read_integrator(const TableReader& document, IntegratorDefinition& integrat
                       available_grid_methods);
   table->read_choice("scheme", integrator.scheme);
   table->read("step", integrator.step);
+  require_countable(*table, "step", integrator.step, scene);
   table->read("courant", integrator.courant);
   exclude(*table, "step", "courant");
   if (!table->has("step") && !table->has("courant")) integrator.courant = keys::default_courant;

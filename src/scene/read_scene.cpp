@@ -59,9 +59,9 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   document.read("title", scene.title);
   read_space(document, scene);
   read_time(document, scene);
-  read_integrator(document, scene.integrator);
+  read_integrator(document, scene);
   read_constitutive(document, scene.constitutive);
-  read_output(document, scene.output);
+  read_output(document, scene);
   read_gravity(document, scene);
   scene.materials = read_materials(document);
   read_bodies(document, scene);

@@ -7,6 +7,9 @@
 namespace vitrum {
 namespace {
 
+Box bounds(const Box& b) {
+  return b;
+}
 Box bounds(const Disk& d) {
   return {{d.centre[0] - d.radius, d.centre[1] - d.radius}, {d.centre[0] + d.radius, d.centre[1] + d.radius}};
 }
@@ -76,6 +79,12 @@ std::vector<Seed> seed(const Curved& shape, double spacing) {
 }
 
 }  // namespace
+
+double most_seeds(const Shape& shape, double cell, int per_side) {
+  const Box box = std::visit([](const auto& s) { return bounds(s); }, shape);
+  const double spacing = cell / per_side;
+  return ((box.max[0] - box.min[0]) / spacing + 2.0) * ((box.max[1] - box.min[1]) / spacing + 2.0);
+}
 
 std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side) {
   return std::visit([&](const auto& s) { return seed(s, cell / per_side); }, shape);

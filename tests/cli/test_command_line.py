@@ -43,10 +43,6 @@ class Arguments(CommandLineTest):
             self.assertRegex(answer.stderr, r"error: missing\.toml: found no such file")
             self.assertRegex(self.vitrum(command, ".", status=2).stderr, "directory")
 
-    def test_compare_is_not_available(self):
-        answer = self.vitrum("compare", "a", "b", status=2)
-        self.assertIn("not available in this version", answer.stderr)
-
     def test_methods_not_available(self):
         for key, method in (("integrator", "arkode-explicit"), ("integrator", "arkode-implicit"),
                             ("constitutive", "substep"), ("constitutive", "cvode")):
