@@ -48,9 +48,13 @@ CriticalPlane von_mises_critical_plane(const SymmetricTensor& s, const Moduli& m
   const double normal_stress = centre + radius * cosine;
   const double quotient = radius * radius * (1.0 - cosine * cosine) / G + normal_stress * normal_stress / M;
   const double c = std::sqrt(0.5 * (1.0 + cosine)), d = std::sqrt(0.5 * (1.0 - cosine));
-  // n = cos(theta) e1 + sin(theta) e3, e3 = e1 turned by +90 degrees; of the two signs the positive one is taken.
-  CriticalPlane plane{tangent_drop / squared_norm * quotient, c * p.direction_r - d * p.direction_z,
-                      c * p.direction_z + d * p.direction_r};
+  // n = cos(theta) e1 +- sin(theta) e3, e3 = e1 turned by +90 degrees. Of the two conjugate planes the one that
+  // faces z more is taken: a rule that mirror images of a state share. (Where both face z alike, the sign is +.)
+  const double plus_r = c * p.direction_r - d * p.direction_z, plus_z = c * p.direction_z + d * p.direction_r;
+  const double minus_r = c * p.direction_r + d * p.direction_z, minus_z = c * p.direction_z - d * p.direction_r;
+  const bool minus = std::abs(minus_z) > std::abs(plus_z);
+  CriticalPlane plane{tangent_drop / squared_norm * quotient, minus ? minus_r : plus_r,
+                      minus ? minus_z : plus_z};
   if (all) {
     const double hoop = tangent_drop / squared_norm * s.tt * s.tt / M;
     if (hoop > plane.severity) plane = {hoop, 0.0, 0.0};

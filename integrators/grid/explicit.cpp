@@ -93,6 +93,9 @@ bool ExplicitIntegrator::advance_courant(System& system, double target, StepObse
                                          "over a million times its wave speed",
                                          stable, critical.body, critical.travel_speed));
     const double left = target - system.time;
+    if (!(system.time + stable > system.time))
+      throw ComputationError(fmt::format("the step has collapsed to {:.3g} s, below the rounding of the time {:.6g} s", stable,
+                                         system.time));
     // The last two steps share what is left, so that no step is much shorter than its neighbours.
     const bool last = left <= stable * (1.0 + 1e-9);
     const double duration = last ? left : (left < 2.0 * stable ? 0.5 * left : stable);

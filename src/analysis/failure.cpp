@@ -30,9 +30,44 @@ std::array<double, 2> mean_velocity(const Body& body) {
   return {momentum[0] / mass, momentum[1] / mass};
 }
 
+/// Counts, fronts and openings of a body; `first_*` are left to the caller.
+FailureMeasures measure(const Body& body) {
+  FailureMeasures m;
+  const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
+  const Particles& p = body.particles;
+  const auto &length = column(body, Variable::effective_length), &decohesion = column(body, Variable::decohesion);
+  const auto &opening_n = column(body, Variable::opening_n), &opening_t = column(body, Variable::opening_t);
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    if (!(length[i] > 0.0)) continue;
+    const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
+    ++m.localised;
+    if (decohesion[i] >= 1.0) ++m.separated;
+    raise(m.localised_radius_max, radius);
+    if (!m.max_opening || opening > *m.max_opening) m.max_opening = opening, m.max_opening_radius = radius;
+  }
+  if (!column(body, Variable::crack_density).empty())
+    for (std::size_t i = 0; i < p.size; ++i)
+      if (damage_of(body, i) > damage_front_threshold) raise(m.damage_front_radius, std::abs(p.position[0][i]));
+  return m;
+}
+
+/// Enters one body's measures into those of all.
+void merge(FailureMeasures& all, const FailureMeasures& one) {
+  for (std::optional<FirstEvent> FailureMeasures::*first :
+       {&FailureMeasures::first_damage, &FailureMeasures::first_localisation, &FailureMeasures::first_separation})
+    if (one.*first && (!(all.*first) || (one.*first)->time < (all.*first)->time)) all.*first = one.*first;
+  all.localised += one.localised;
+  all.separated += one.separated;
+  // An empty optional is less than any value.
+  all.localised_radius_max = std::max(all.localised_radius_max, one.localised_radius_max);
+  all.damage_front_radius = std::max(all.damage_front_radius, one.damage_front_radius);
+  if (one.max_opening > all.max_opening)
+    all.max_opening = one.max_opening, all.max_opening_radius = one.max_opening_radius;
+}
+
 }  // namespace
 
-FailureAnalysis::FailureAnalysis(const System& system) {
+FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.size()) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double fastest = 0.0;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
@@ -58,8 +93,9 @@ FailureAnalysis::FailureAnalysis(const System& system) {
 
 void FailureAnalysis::observe(const System& system, double step) {
   for (const BodyEvent& e : system.record.events) {
-    std::optional<FirstEvent>* first = e.event.kind == EventKind::localisation ? &memory_.localisation
-                                       : e.event.kind == EventKind::separation ? &memory_.separation
+    Memory& memory = memory_[e.body];
+    std::optional<FirstEvent>* first = e.event.kind == EventKind::localisation ? &memory.localisation
+                                       : e.event.kind == EventKind::separation ? &memory.separation
                                                                                : nullptr;
     if (first == nullptr) continue;
     const double time = system.time - step * (1.0 - e.event.fraction);
@@ -67,38 +103,24 @@ void FailureAnalysis::observe(const System& system, double step) {
     const Particles& p = system.bodies[e.body].particles;
     *first = FirstEvent{time, p.position[0][e.particle], p.position[1][e.particle], system.bodies[e.body].name};
   }
-  if (memory_.damage) return;
-  for (const Body& body : system.bodies) {
-    if (column(body, Variable::crack_density).empty()) continue;
-    for (std::size_t i = 0; i < body.particles.size; ++i)
-      if (column(body, Variable::crack_density)[i] > 0.0 && damage_of(body, i) > damaged) {
-        memory_.damage = FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
-        return;
-      }
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const Body& body = system.bodies[n];
+    const std::vector<double>& density = column(body, Variable::crack_density);
+    for (std::size_t i = 0; i < density.size() && !memory_[n].damage; ++i)
+      if (density[i] > 0.0 && damage_of(body, i) > damage_threshold)
+        memory_[n].damage = FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
   }
 }
 
 FailureReport FailureAnalysis::report(const System& system, bool with_fragments) const {
   FailureReport r;
-  r.first_damage = memory_.damage;
-  r.first_localisation = memory_.localisation;
-  r.first_separation = memory_.separation;
-  const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
-  for (const Body& body : system.bodies) {
-    const Particles& p = body.particles;
-    const auto &length = column(body, Variable::effective_length), &decohesion = column(body, Variable::decohesion);
-    const auto &opening_n = column(body, Variable::opening_n), &opening_t = column(body, Variable::opening_t);
-    for (std::size_t i = 0; i < length.size(); ++i) {
-      if (!(length[i] > 0.0)) continue;
-      const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
-      ++r.localised;
-      if (decohesion[i] >= 1.0) ++r.separated;
-      raise(r.localised_radius_max, radius);
-      if (!r.max_opening || opening > *r.max_opening) r.max_opening = opening, r.max_opening_radius = radius;
-    }
-    if (!column(body, Variable::crack_density).empty())
-      for (std::size_t i = 0; i < p.size; ++i)
-        if (damage_of(body, i) > damage_front) raise(r.damage_front_radius, std::abs(p.position[0][i]));
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    FailureMeasures m = measure(system.bodies[n]);
+    m.first_damage = memory_[n].damage;
+    m.first_localisation = memory_[n].localisation;
+    m.first_separation = memory_[n].separation;
+    merge(r, m);
+    r.bodies.push_back(std::move(m));
   }
   if (!with_fragments) return r;
   const std::vector<ConnectedPiece> pieces = connected_pieces(system);
@@ -111,19 +133,23 @@ FailureReport FailureAnalysis::report(const System& system, bool with_fragments)
   return r;
 }
 
-/// The projectile's front has passed the target's original far face by a cell, and the target's largest piece no longer reaches
-/// into the column that the projectile came along.
+/// A tenth of the projectile has passed the target's original far face by a cell (not just a splinter of it), and the target's
+/// largest piece no longer reaches into the column that the projectile came along.
 std::optional<bool> FailureAnalysis::perforated(const System& system, const std::vector<std::size_t>& main_piece) const {
   if (!projectile_ || !target_) return std::nullopt;
   const std::size_t along = direction_, across = 1 - direction_;
-  const Extent &target = extents_[*target_], &projectile = extents_[*projectile_];
+  const Extent &target = extents_[*target_], &extent = extents_[*projectile_];
   const double far_face = sense_ < 0.0 ? target.min[along] : target.max[along];
-  double front = -std::numeric_limits<double>::infinity();
-  for (const double x : system.bodies[*projectile_].particles.position[along]) front = std::max(front, sense_ * (x - far_face));
-  if (front < system.cell) return false;
+  const Particles& projectile = system.bodies[*projectile_].particles;
+  double mass = 0.0, beyond = 0.0;
+  for (std::size_t i = 0; i < projectile.size; ++i) {
+    mass += projectile.mass[i];
+    if (sense_ * (projectile.position[along][i] - far_face) > system.cell) beyond += projectile.mass[i];
+  }
+  if (beyond < 0.1 * mass) return false;
   const auto& x = system.bodies[*target_].particles.position[across];
   return std::none_of(main_piece.begin(), main_piece.end(), [&](std::size_t i) {
-    return x[i] > projectile.min[across] + system.cell * 0.5 && x[i] < projectile.max[across] - system.cell * 0.5;
+    return x[i] > extent.min[across] + system.cell * 0.5 && x[i] < extent.max[across] - system.cell * 0.5;
   });
 }
 

@@ -6,9 +6,6 @@
 
 namespace vitrum {
 
-/// Damage D from which a particle counts as damaged (`first_damage`), and from which it belongs to the damage front.
-inline constexpr double damaged = 0.001, damage_front = 0.1;
-
 /// Follows failure through a run: first events as they happen, fronts and fragments on demand.
 class FailureAnalysis {
  public:
@@ -19,12 +16,13 @@ class FailureAnalysis {
   /// The report on the present state. with_fragments: also finds the connected pieces.
   FailureReport report(const System& system, bool with_fragments) const;
 
-  /// What a checkpoint keeps.
+  /// First events of one body: what a checkpoint keeps.
   struct Memory {
     std::optional<FirstEvent> damage, localisation, separation;
   };
-  const Memory& memory() const { return memory_; }
-  void restore(const Memory& memory) { memory_ = memory; }
+  const std::vector<Memory>& memory() const { return memory_; }
+  /// One entry per body.
+  void restore(std::vector<Memory> memory) { memory_ = std::move(memory); }
 
  private:
   std::optional<bool> perforated(const System& system, const std::vector<std::size_t>& main_piece) const;
@@ -37,7 +35,7 @@ class FailureAnalysis {
   std::optional<std::size_t> projectile_, target_;
   std::size_t direction_ = 1;  ///< component along which the projectile moves
   double sense_ = -1.0;        ///< and its sign
-  Memory memory_;
+  std::vector<Memory> memory_;  ///< by body
 };
 
 }  // namespace vitrum

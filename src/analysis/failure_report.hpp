@@ -6,6 +6,10 @@
 
 namespace vitrum {
 
+/// Damage D from which a particle counts as damaged (`first_damage`), and from which it belongs to the damage front. Crack density
+/// grows with the first tension, however small: without a threshold rounding would be the first damage.
+inline constexpr double damage_threshold = 0.001, damage_front_threshold = 0.1;
+
 /// Where and when something happened first.
 struct FirstEvent {
   double time, r, z;  ///< s, m, m (x and y in plane strain)
@@ -21,8 +25,8 @@ struct Fragment {
   double velocity[2];                    ///< m/s
 };
 
-/// The `failure` block of the summary.
-struct FailureReport {
+/// What happened first, how much and how far, in one body or in all.
+struct FailureMeasures {
   std::optional<FirstEvent> first_damage;        ///< damage D passes 0.001
   std::optional<FirstEvent> first_localisation;
   std::optional<FirstEvent> first_separation;
@@ -31,6 +35,11 @@ struct FailureReport {
   std::optional<double> damage_front_radius;     ///< m, largest r with D > 0.1
   std::optional<double> max_opening;             ///< m, largest norm of the opening
   std::optional<double> max_opening_radius;      ///< m, where
+};
+
+/// The `failure` block of the summary: the measures over all bodies, and what only the whole has.
+struct FailureReport : FailureMeasures {
+  std::vector<FailureMeasures> bodies;           ///< each body's own, in order
   std::optional<bool> perforated;                ///< none: the scene has no projectile and target
   std::vector<Fragment> fragments;               ///< by falling mass
 };

@@ -8,8 +8,8 @@
 
 namespace vitrum::app {
 
-Progress::Progress(double start, double end, bool quiet)
-    : start_(start), end_(end), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begun_(Clock::now()), last_(begun_) {
+Progress::Progress(double start, double end, const char* energy_unit, bool quiet)
+    : start_(start), end_(end), energy_unit_(energy_unit), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begun_(Clock::now()), last_(begun_) {
   first_time_ = start;
 }
 
@@ -34,8 +34,8 @@ void Progress::step(double time, double step, const IntegratorCounters& c) {
 
 void Progress::output(double time, const IntegratorCounters& c, const EnergyTotals& e) {
   if (quiet_ || terminal_) return;
-  fmt::print(stderr, "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} J  elastic {:.4g} J  residual {:+.2f} %\n", 1e6 * time,
-             c.steps, c.rejected, e.kinetic, e.elastic, 100.0 * e.relative_residual());
+  fmt::print(stderr, "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n", 1e6 * time,
+             c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_, 100.0 * e.relative_residual());
 }
 
 void Progress::finish() {

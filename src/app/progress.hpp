@@ -9,7 +9,8 @@ namespace vitrum::app {
 /// Tells how a run gets on: a bar on a terminal, otherwise a line per output. All on standard error.
 class Progress {
  public:
-  Progress(double start, double end, bool quiet);
+  /// energy_unit: "J" or "J/m"; must outlive the object.
+  Progress(double start, double end, const char* energy_unit, bool quiet);
 
   /// After a step; looks at the clock only now and then.
   void step(double time, double step, const IntegratorCounters& counters);
@@ -21,6 +22,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   double start_, end_;
+  const char* energy_unit_;
   bool quiet_, terminal_, drawn_ = false;
   unsigned calls_ = 0;
   double first_time_ = 0.0;

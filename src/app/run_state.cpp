@@ -46,11 +46,12 @@ void store(const RunState& state, output::Checkpoint& checkpoint) {
   visit_numbers(state, [&](const char* name, const auto&... values) {
     checkpoint.numbers[name] = {static_cast<double>(values)...};
   });
-  for (const auto& [name, member] : first_events)
-    if (const std::optional<FirstEvent>& first = state.failure.*member) {
-      checkpoint.numbers[name] = {first->time, first->r, first->z};
-      checkpoint.texts[name] = first->body;
-    }
+  for (std::size_t body = 0; body < state.failure.size(); ++body)
+    for (const auto& [event, member] : first_events)
+      if (const std::optional<FirstEvent>& first = state.failure[body].*member) {
+        const std::string name = fmt::format("{} of body {}", event, body);
+        checkpoint.numbers[name] = {first->time, first->r, first->z};
+      }
 }
 
 RunState restored(const output::Checkpoint& checkpoint) {
@@ -60,11 +61,13 @@ RunState restored(const output::Checkpoint& checkpoint) {
     std::size_t k = 0;
     (assign(values, numbers[k++]), ...);
   });
-  for (const auto& [name, member] : first_events)
-    if (checkpoint.numbers.contains(name)) {
+  state.failure.resize(checkpoint.bodies.size());
+  for (std::size_t body = 0; body < state.failure.size(); ++body)
+    for (const auto& [event, member] : first_events) {
+      const std::string name = fmt::format("{} of body {}", event, body);
+      if (!checkpoint.numbers.contains(name)) continue;
       const std::vector<double>& n = numbers_of(checkpoint, name, 3);
-      const auto body = checkpoint.texts.find(name);
-      state.failure.*member = FirstEvent{n[0], n[1], n[2], body == checkpoint.texts.end() ? "" : body->second};
+      state.failure[body].*member = FirstEvent{n[0], n[1], n[2], checkpoint.bodies[body].name};
     }
   return state;
 }

@@ -11,7 +11,7 @@ namespace vitrum::app {
 /// All that a run remembers besides its particles.
 struct RunState {
   EnergyTotals energy;
-  FailureAnalysis::Memory failure;
+  std::vector<FailureAnalysis::Memory> failure;  ///< by body
   IntegratorState integrator;
   std::int64_t outputs = 0;         ///< planned outputs written, the one at the start not counted
   std::int64_t checkpoints = 0;     ///< planned checkpoints written

@@ -12,7 +12,9 @@ Schedule::Target Schedule::next(std::int64_t outputs, std::int64_t checkpoints) 
   // Times closer than this are one: what rounding makes of the same time.
   const double slack = 1e-9 * (end_ - start_);
   const auto planned = [&](const std::optional<double>& every, std::int64_t done) {
-    const double t = every ? start_ + static_cast<double>(done + 1) * *every : end_;
+    if (!every) return end_;
+    const double first = std::floor((start_ + slack) / *every) + 1.0;  // the first multiple after the start
+    const double t = (first + static_cast<double>(done)) * *every;
     return t > end_ - slack ? end_ : t;
   };
   const double output = planned(every_, outputs), checkpoint = planned(checkpoint_every_, checkpoints);

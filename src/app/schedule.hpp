@@ -6,7 +6,8 @@
 
 namespace vitrum::app {
 
-/// The times at which a run stops stepping to write something. Times are start + k x interval, never accumulated.
+/// The times at which a run stops stepping to write something: multiples of the interval, never accumulated (so that t = 0, where a
+/// scene may put first touch, is one of them whatever the start), and the end.
 class Schedule {
  public:
   Schedule(const Scene& scene);

@@ -31,7 +31,7 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       failure_(system_),
       watchdog_(scene.integrator.max_growth, step_scheme(scene.integrator.scheme)),
       schedule_(scene),
-      progress_(scene.start, scene.end, options.quiet) {
+      progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet) {
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
   fields_ = output::select_fields(scene.output.fields, materials);
   if (options_.no_fields) fields_.clear();
@@ -97,7 +97,7 @@ int Simulation::run() {
     if (const int signal = caught_signal()) {
       write_checkpoint();
       return finish(output::RunStatus::interrupted,
-                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with --resume --out {}", signal,
+                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with the same command and --resume, folder {}", signal,
                                 system_.time, directory_.string()),
                     128 + signal);
     }

@@ -22,9 +22,6 @@ output::BodySummary summarise(const Body& body, double whole) {
     }
   }
   for (double& c : s.centre) c /= s.mass;
-  const auto& length = p.variables[static_cast<std::size_t>(Variable::effective_length)];
-  const auto& decohesion = p.variables[static_cast<std::size_t>(Variable::decohesion)];
-  for (std::size_t i = 0; i < length.size(); ++i) s.localised += length[i] > 0.0, s.separated += decohesion[i] >= 1.0;
   return s;
 }
 
@@ -40,7 +37,7 @@ bool finite_state(const System& system) {
 }
 
 std::string place(const std::optional<FirstEvent>& e) {
-  return e ? fmt::format("{:.3f} us at ({:.2f}, {:.2f}) mm in '{}'", 1e6 * e->time, 1e3 * e->r, 1e3 * e->z, e->body) : "none";
+  return e ? fmt::format("{:.3f} us at ({:.2f}, {:.2f}) mm", 1e6 * e->time, 1e3 * e->r, 1e3 * e->z) : "none";
 }
 
 }  // namespace
@@ -55,7 +52,10 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
   output::write_summary(directory_ / "summary.json", s);
   if (!options_.quiet) print_summary(s);
   constexpr double tolerated = 0.05;
-  if (const double residual = s.energy.relative_residual(); status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
+  const double residual = s.energy.relative_residual();
+  if (status == output::RunStatus::complete && (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0)))
+    fmt::print(stderr, "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n", 100.0 * residual);
+  else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
     fmt::print(stderr, "warning: the numerics {} {:.1f} % of the energy: the step does not resolve this run (try a smaller "
                        "integrator.step or integrator.courant = 0.1)\n",
                residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual));
@@ -79,7 +79,10 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.constitutive.events = system_.constitutive_events;
   s.energy = shown_energy();
   s.failure = failure_.report(system_, finite_state(system_));
-  for (const Body& body : system_.bodies) s.bodies.push_back(summarise(body, whole_));
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    s.bodies.push_back(summarise(system_.bodies[n], whole_));
+    s.bodies.back().failure = s.failure.bodies[n];
+  }
   s.provenance = provenance_;
   return s;
 }
@@ -96,8 +99,10 @@ void Simulation::print_summary(const output::RunSummary& s) const {
   fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit, 100.0 * e.relative_residual(),
              e.max_growth);
   const FailureReport& f = s.failure;
-  fmt::print("first damage        {}\nfirst localisation  {}\nfirst separation    {}\n", place(f.first_damage),
-             place(f.first_localisation), place(f.first_separation));
+  for (const output::BodySummary& body : s.bodies)
+    if (body.failure.first_damage || body.failure.first_localisation)
+      fmt::print("'{}': first damage {}, first localisation {}, first separation {}\n", body.name, place(body.failure.first_damage),
+                 place(body.failure.first_localisation), place(body.failure.first_separation));
   fmt::print("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated, f.fragments.size(),
              f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
   fmt::print("results in {}\n", directory_.string());

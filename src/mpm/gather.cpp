@@ -36,6 +36,18 @@ struct TileReader {
   }
 };
 
+/// A particle that crosses the axis changes places with its image, whose odd components have the other sign. (t = n turned by +90
+/// degrees is odd as well.)
+void reflect_at_axis(Particles& p, std::size_t i) {
+  const auto flip = [i](std::vector<double>& column) {
+    if (!column.empty()) column[i] = -column[i];
+  };
+  flip(p.velocity[0]), flip(p.elastic_strain[3]), flip(p.stress[3]);
+  flip(p.strain_increment[3]), flip(p.spin_increment);
+  flip(p.variables[static_cast<std::size_t>(Variable::normal_r)]);
+  flip(p.variables[static_cast<std::size_t>(Variable::opening_t)]);
+}
+
 template <ShapeKind kind, bool axisymmetric, Gather what>
 TileSums gather_tile(System& system, std::size_t tile, double duration) {
   using S = Shape1<kind>;
@@ -116,7 +128,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
       if constexpr (P::position) {
         double x0 = r + duration * dx0;
         const double x1 = z + duration * dx1;
-        if (axisymmetric && x0 < 0.0) x0 = -x0, p.velocity[0][i] = -p.velocity[0][i];  // its image crosses the other way
+        if (axisymmetric && x0 < 0.0) x0 = -x0, reflect_at_axis(p, i);
         p.position[0][i] = x0, p.position[1][i] = x1;
         const long long c0 = cell_of(x0 * per_cell), c1 = cell_of(x1 * per_cell);
         sums.stale |= c0 < block.cells[0] || c0 > block.cells[1] || c1 < block.cells[2] || c1 > block.cells[3];

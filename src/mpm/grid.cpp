@@ -16,6 +16,8 @@ std::uint64_t key_of(std::int32_t column, std::int32_t row) {
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) | static_cast<std::uint32_t>(column);
 }
 
+bool before(const Block& a, const Block& b) { return a.row != b.row ? a.row < b.row : a.column < b.column; }
+
 /// floor(a / 8)
 std::int64_t block_of(std::int64_t cell) { return cell >> 3; }
 
@@ -78,8 +80,7 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
   std::vector<std::int32_t> order(count), rank(count);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const Block &x = blocks_[static_cast<std::size_t>(a)], &y = blocks_[static_cast<std::size_t>(b)];
-    return x.row != y.row ? x.row < y.row : x.column < y.column;
+    return before(blocks_[static_cast<std::size_t>(a)], blocks_[static_cast<std::size_t>(b)]);
   });
   std::vector<Block> sorted(count);
   tile_block_.resize(count);
@@ -134,6 +135,10 @@ void Grid::add_neighbours() {
         }
       }
   }
+  // In geometric order too: what is summed over blocks must not depend on the particles that asked for them.
+  std::sort(blocks_.begin() + static_cast<std::ptrdiff_t>(with_particles), blocks_.end(), before);
+  for (std::size_t n = with_particles; n < blocks_.size(); ++n)
+    find_[key_of(blocks_[n].column, blocks_[n].row)] = static_cast<std::int32_t>(n);
   for (Block& b : blocks_)
     for (int dj = -1; dj <= 1; ++dj)
       for (int di = -1; di <= 1; ++di) {

@@ -1,5 +1,6 @@
 #include "output/summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -92,32 +93,43 @@ Json fragments_block(const std::vector<Fragment>& fragments) {
           {"list", list}};
 }
 
-Json failure_block(const FailureReport& failure) {
-  return {{"first_damage", first_event(failure.first_damage)},
-          {"first_localisation", first_event(failure.first_localisation)},
-          {"first_separation", first_event(failure.first_separation)},
-          {"localised", failure.localised},
-          {"separated", failure.separated},
-          {"localised_radius_max", number(failure.localised_radius_max)},
-          {"damage_threshold", damage_threshold},
-          {"damage_front_radius", number(failure.damage_front_radius)},
-          {"max_opening", number(failure.max_opening)},
-          {"max_opening_radius", number(failure.max_opening_radius)},
-          {"perforated", failure.perforated ? Json(*failure.perforated) : Json(nullptr)},
-          {"fragments", fragments_block(failure.fragments)}};
+void add_measures(Json& block, const FailureMeasures& measures) {
+  block["first_damage"] = first_event(measures.first_damage);
+  block["first_localisation"] = first_event(measures.first_localisation);
+  block["first_separation"] = first_event(measures.first_separation);
+  block["localised"] = measures.localised;
+  block["separated"] = measures.separated;
+  block["localised_radius_max"] = number(measures.localised_radius_max);
+  block["damage_front_radius"] = number(measures.damage_front_radius);
+  block["max_opening"] = number(measures.max_opening);
+  block["max_opening_radius"] = number(measures.max_opening_radius);
 }
 
-Json body_block(const BodySummary& body) {
-  return {{"particles", body.particles}, {"mass", number(body.mass)},       {"momentum", pair(body.momentum)},
-          {"centre", pair(body.centre)}, {"kinetic", number(body.kinetic)}, {"localised", body.localised},
-          {"separated", body.separated}};
+Json failure_block(const FailureReport& failure) {
+  Json block = {{"damage_threshold", damage_threshold}};
+  add_measures(block, failure);
+  block["perforated"] = failure.perforated ? Json(*failure.perforated) : Json(nullptr);
+  block["fragments"] = fragments_block(failure.fragments);
+  return block;
+}
+
+Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments) {
+  Json block = {{"particles", body.particles},
+                {"mass", number(body.mass)},
+                {"momentum", pair(body.momentum)},
+                {"centre", pair(body.centre)},
+                {"kinetic", number(body.kinetic)}};
+  add_measures(block, body.failure);
+  block["fragments"] =
+      std::count_if(fragments.begin(), fragments.end(), [&](const Fragment& f) { return f.body == body.name; });
+  return block;
 }
 
 }  // namespace
 
 nlohmann::ordered_json to_json(const RunSummary& summary) {
   Json bodies = Json::object(), provenance = Json::object();
-  for (const BodySummary& body : summary.bodies) bodies[body.name] = body_block(body);
+  for (const BodySummary& body : summary.bodies) bodies[body.name] = body_block(body, summary.failure.fragments);
   for (const ProvenanceEntry& entry : provenance_entries)
     provenance[std::string(entry.name)] = summary.provenance.*entry.member;
   return {{"status", status_name(summary.status)},

@@ -23,7 +23,7 @@ struct BodySummary {
   std::array<double, 2> momentum{};          ///< kg m/s, summed over particles
   std::array<double, 2> centre{};            ///< m, of mass
   double kinetic = 0.0;                      ///< J
-  std::size_t localised = 0, separated = 0;  ///< particles
+  FailureMeasures failure;
 };
 
 /// What summary.json tells. Energies arrive as they are to be written (axisymmetric: joules of the whole
@@ -44,8 +44,6 @@ struct RunSummary {
   Provenance provenance;
 };
 
-/// Damage at which `first_damage` is recorded.
-inline constexpr double damage_threshold = 0.001;
 /// Fragments listed one by one; their number and masses count all of them.
 inline constexpr std::size_t listed_fragments = 100;
 

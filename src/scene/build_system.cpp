@@ -67,6 +67,10 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
   const double density = body.material->parameters().elastic.density;
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
+    constexpr double farthest = 2.0e9;  // cells: the grid counts them in 32 bits
+    if (!(std::max(std::abs(x[0]), std::abs(x[1])) < farthest * scene.cell))
+      throw InputError(fmt::format("body '{}': found a particle at ({}, {}) m; expected at most {:g} cells from the origin",
+                                   definition.name, x[0], x[1], farthest));
     const auto& G = definition.velocity_gradient;
     for (std::size_t k = 0; k < 2; ++k) {
       p.position[k][i] = x[k];

@@ -32,7 +32,7 @@ class Info(CommandLineTest):
 
     def test_command_is_told_as_typed(self):
         self.vitrum("run", impact, "--out", "out", "--quiet", *overrides(title='"x y"'))
-        self.assertIn('--set title="x y"', json.loads(self.vitrum("info", "out", "--json").stdout)["provenance"]["command"])
+        self.assertIn("--set 'title=\"x y\"'", json.loads(self.vitrum("info", "out", "--json").stdout)["provenance"]["command"])
 
     def test_what_is_no_result(self):
         out = self.run_scene("out", *overrides(output__checkpoint_every=10e-6))

@@ -28,7 +28,7 @@ class PlotRun(CommandLineTest):
 
     def test_every_picture(self):
         out = self.run_scene("out")
-        answer = self.plot(out, "--out", "pictures ü", "--times", "-1e-6", "1.9e-5")
+        answer = self.plot(out, "--out", "pictures ü", "--times", "0", "2e-5")
         self.assertEqual(answer.stderr, "")
         self.assert_pictures(self.folder / "pictures ü", ["snapshots", "damage", "opening", "energy"])
 

@@ -46,7 +46,7 @@ class Summary(CommandLineTest):
         summary = read_summary(self.run_scene("out"))
         self.assert_shape(summary, interface)
         self.assertEqual((summary["status"], summary["message"]), ("complete", None))
-        self.assertEqual(summary["time"], 19e-6)
+        self.assertEqual(summary["time"], 20e-6)
         self.assertEqual(summary["integrator"]["steps"], 1000)
         self.assertEqual(summary["integrator"]["method"], "explicit")
         self.assertEqual(summary["constitutive"]["evaluations"], 200 * 1000)

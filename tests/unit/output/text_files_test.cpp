@@ -64,7 +64,10 @@ TEST_CASE("The summary says null where nothing happened", "[output]") {
   const TemporaryDirectory directory;
   RunSummary summary;
   summary.energy.kinetic = not_finite;
-  summary.bodies.push_back({"plate", 3, 1.5, {0.0, not_finite}, {0.1, 0.2}, 7.0, 1, 2});
+  BodySummary plate{"plate", 3, 1.5, {0.0, not_finite}, {0.1, 0.2}, 7.0, {}};
+  plate.failure.localised = 1;
+  plate.failure.separated = 2;
+  summary.bodies.push_back(plate);
   const nlohmann::ordered_json json = to_json(summary);
   for (const char* key : {"status", "message", "time", "particles", "wall_seconds", "threads", "integrator",
                           "constitutive", "energy", "failure", "bodies", "provenance"})
