@@ -9,11 +9,13 @@ namespace vitrum {
 
 enum class Yielding { none, von_mises, drucker_prager };
 
-/// The models of one material put together. What the template arguments leave out is neither computed nor loaded nor stored.
+/// The models of one material put together. What the template arguments leave out is neither computed nor
+/// loaded nor stored.
 ///
-/// An increment is a straight line in (corotational) strain. It is followed leg by leg: a leg ends where the mean strain changes
-/// sign (damage acts on one side, Drucker-Prager on the other), at localisation, or with the increment. Within a leg the state
-/// after any fraction is closed-form (`follow`), so events are located by bisection and a leg of any length does not overshoot.
+/// An increment is a straight line in (corotational) strain. It is followed leg by leg: a leg ends where the
+/// mean strain changes sign (damage acts on one side, Drucker-Prager on the other), at localisation, or with
+/// the increment. Within a leg the state after any fraction is closed-form (`follow`), so events are located
+/// by bisection and a leg of any length does not overshoot.
 template <bool has_damage, Yielding yielding, bool has_decohesion>
 class Composite final : public Material {
  public:
@@ -27,7 +29,9 @@ class Composite final : public Material {
                PointReport& report) const override;
   void respond(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
                BatchReport& report) const override;
-  Moduli secant_moduli(const PointState& s) const override { return secant(trace(s.elastic_strain) > 0.0, s.crack_density); }
+  Moduli secant_moduli(const PointState& s) const override {
+    return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  }
   double damage(const PointState& s) const override;
 
  private:
@@ -37,9 +41,9 @@ class Composite final : public Material {
   /// A straight piece of the strain path on one side of zero mean strain.
   struct Leg {
     PointState start;
-    SymmetricTensor strain;      ///< whole increment of the leg
+    SymmetricTensor strain;  ///< whole increment of the leg
     bool tension;
-    double coefficient;          ///< C(R) of eq. 7 on this leg
+    double coefficient;  ///< C(R) of eq. 7 on this leg
   };
   struct Followed {
     PointState state;
@@ -76,7 +80,8 @@ class Composite final : public Material {
   void store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const;
 
   // composite_intact.hpp
-  double advance_intact(PointState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
+  double advance_intact(PointState& s, const SymmetricTensor& strain, double duration,
+                        PointReport& report) const;
   void release_excess_shear(PointState& s, double done, PointReport& report) const;
   Followed follow(const Leg& leg, double fraction) const;
   double leg_end(const Leg& leg) const;
@@ -85,7 +90,8 @@ class Composite final : public Material {
   double localisation_criterion(const Leg& leg, const PointState& s) const;
   bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
   void start_decohesion(const Leg& leg, PointState& s) const;
-  void record_events(const Leg& leg, const PointState& end, double end_fraction, double done, PointReport& report) const;
+  void record_events(const Leg& leg, const PointState& end, double end_fraction, double done,
+                     PointReport& report) const;
   double damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const;
 
   // composite_localised.hpp
@@ -98,7 +104,8 @@ class Composite final : public Material {
   void relax_crack(PointState& s) const;
   void flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const;
   double flow_along_deviator(PointState& s, double excess) const;
-  PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain, const Moduli& moduli) const {
+  PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain,
+                         const Moduli& moduli) const {
     const SymmetricTensor stress = moduli.stress(strain);
     return {plane.normal_part(stress), plane.tangential_part(stress), moduli.p_wave(), moduli.shear};
   }

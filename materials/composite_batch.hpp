@@ -10,7 +10,8 @@ Composite<D, Y, C>::Composite(const MaterialParameters& parameters, double cell)
   if constexpr (Y == Yielding::von_mises) von_mises_ = VonMisesLaw(*parameters.von_mises);
   if constexpr (Y == Yielding::drucker_prager) drucker_prager_ = DruckerPragerLaw(*parameters.drucker_prager);
   if constexpr (C) decohesion_ = DecohesionLaw(*parameters.decohesion);
-  for_own_variables([this](Variable v) { variables_.push_back(all_variables()[static_cast<std::size_t>(v)]); });
+  for_own_variables(
+      [this](Variable v) { variables_.push_back(all_variables()[static_cast<std::size_t>(v)]); });
 }
 
 template <bool D, Yielding Y, bool C>
@@ -30,7 +31,8 @@ double Composite<D, Y, C>::damage([[maybe_unused]] const PointState& s) const {
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, double duration, PointReport& report) const {
+void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, double duration,
+                                 PointReport& report) const {
   if constexpr (elastic_only) {
     s.elastic_strain += strain;
     s.stress = elastic_.stress(s.elastic_strain);
@@ -46,9 +48,11 @@ void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, d
   }
 }
 
-/// Whether an increment from e0 to e1 meets no event and changes no internal variable: most do, and need nothing but Hooke's law.
+/// Whether an increment from e0 to e1 meets no event and changes no internal variable: most do, and need
+/// nothing but Hooke's law.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTensor& e1, double duration) const {
+bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTensor& e1,
+                                       double duration) const {
   if (C && is_localised(s)) return false;
   const double t0 = trace(s.elastic_strain), t1 = trace(e1);
   const bool tension = t0 > 0.0 || t1 > 0.0;
@@ -57,7 +61,8 @@ bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTenso
   if constexpr (D)
     if (t1 > t0 && tension) {
       if (t1 - t0 > 3.0 * duration * s.max_rate) return false;
-      if (damage_.target(t1 / 3.0, damage_.coefficient(damage_.effective_rate(s.max_rate))) > s.crack_density) return false;
+      if (damage_.target(t1 / 3.0, damage_.coefficient(damage_.effective_rate(s.max_rate))) > s.crack_density)
+        return false;
     }
   if constexpr (has_yield) {
     if (Y == Yielding::drucker_prager && tension) return true;
@@ -70,7 +75,8 @@ bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTenso
 
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::load(const ParticleColumns& p, std::size_t i, PointState& s) const {
-  s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i], p.elastic_strain[3][i]};
+  s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i],
+                      p.elastic_strain[3][i]};
   for_own_variables([&](Variable v) {
     const auto k = static_cast<std::size_t>(v);
     s.*variable_members[k] = p.variables[k][i];
@@ -86,8 +92,8 @@ void Composite<D, Y, C>::store_variables(const PointState& s, const ParticleColu
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
-                                 BatchReport& report) const {
+void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, std::size_t end,
+                                 double duration, BatchReport& report) const {
   const double specific_volume = 1.0 / parameters_.elastic.density;
   PointState s;
   PointReport point;
@@ -122,8 +128,10 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
     const SymmetricTensor& e = s.elastic_strain;
     const Moduli moduli = secant_moduli(s);
     const SymmetricTensor stress = moduli.stress(e);
-    p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt, p.elastic_strain[3][i] = e.rz;
-    p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt, p.stress[3][i] = stress.rz;
+    p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt,
+    p.elastic_strain[3][i] = e.rz;
+    p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt,
+    p.stress[3][i] = stress.rz;
     stored += reference * stored_energy_of_volume(moduli, e);
   }
   report.elastic += stored;

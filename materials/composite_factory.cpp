@@ -30,12 +30,18 @@ std::shared_ptr<const Material> make_material(const MaterialParameters& p, doubl
 
 std::string_view event_name(EventKind kind) {
   switch (kind) {
-    case EventKind::damage: return "damage";
-    case EventKind::yield: return "yield";
-    case EventKind::peak: return "peak";
-    case EventKind::localisation: return "localisation";
-    case EventKind::separation: return "separation";
-    case EventKind::closure: return "closure";
+    case EventKind::damage:
+      return "damage";
+    case EventKind::yield:
+      return "yield";
+    case EventKind::peak:
+      return "peak";
+    case EventKind::localisation:
+      return "localisation";
+    case EventKind::separation:
+      return "separation";
+    case EventKind::closure:
+      return "closure";
   }
   return "unknown";
 }

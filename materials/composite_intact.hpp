@@ -47,7 +47,8 @@ double Composite<D, Y, C>::advance_intact(PointState& s, const SymmetricTensor& 
   return 1.0;
 }
 
-/// Shear that only tension allowed (no yield there) falls to the surface at the instant at which pressure begins.
+/// Shear that only tension allowed (no yield there) falls to the surface at the instant at which pressure
+/// begins.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::release_excess_shear(PointState& s, double done, PointReport& report) const {
   const Moduli moduli = secant(false, s.crack_density);
@@ -57,7 +58,8 @@ void Composite<D, Y, C>::release_excess_shear(PointState& s, double done, PointR
   report.record(EventKind::yield, done);
 }
 
-/// The state after a fraction of a leg: damage from the mean strain (secant), then the return to the yield surface.
+/// The state after a fraction of a leg: damage from the mean strain (secant), then the return to the yield
+/// surface.
 template <bool D, Yielding Y, bool C>
 auto Composite<D, Y, C>::follow(const Leg& leg, double fraction) const -> Followed {
   Followed f{leg.start};
@@ -65,7 +67,8 @@ auto Composite<D, Y, C>::follow(const Leg& leg, double fraction) const -> Follow
   s.elastic_strain += fraction * leg.strain;
   if constexpr (D)
     if (leg.tension)
-      s.crack_density = std::max(s.crack_density, damage_.target(trace(s.elastic_strain) / 3.0, leg.coefficient));
+      s.crack_density =
+          std::max(s.crack_density, damage_.target(trace(s.elastic_strain) / 3.0, leg.coefficient));
   if constexpr (Y == Yielding::von_mises) {
     f.plastic_dissipation = flow(s, secant(leg.tension, s.crack_density), 0.0);
   } else if constexpr (Y == Yielding::drucker_prager) {
@@ -80,7 +83,8 @@ auto Composite<D, Y, C>::follow(const Leg& leg, double fraction) const -> Follow
 
 /// Returns to the yield surface; gives the energy dissipated, J/m^3.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::flow(PointState& s, const Moduli& moduli, [[maybe_unused]] double violated_before) const {
+double Composite<D, Y, C>::flow(PointState& s, const Moduli& moduli,
+                                [[maybe_unused]] double violated_before) const {
   if constexpr (Y == Yielding::von_mises) {
     const SymmetricTensor d = deviator(s.elastic_strain);
     const double trial = 2.0 * moduli.shear * norm(d);
@@ -124,7 +128,8 @@ double Composite<D, Y, C>::leg_end(const Leg& leg) const {
 
 /// <= 0 where the state admits a discontinuity: growing damage (Phi) or softening flow (H >= H_cr, eq. 25).
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::localisation_criterion([[maybe_unused]] const Leg& leg, [[maybe_unused]] const PointState& s) const {
+double Composite<D, Y, C>::localisation_criterion([[maybe_unused]] const Leg& leg,
+                                                  [[maybe_unused]] const PointState& s) const {
   double value = std::numeric_limits<double>::infinity();
   if constexpr (C && D) {
     if (leg.tension && s.crack_density > leg.start.crack_density) {
@@ -137,22 +142,25 @@ double Composite<D, Y, C>::localisation_criterion([[maybe_unused]] const Leg& le
   if constexpr (C && Y == Yielding::von_mises) {
     if (s.plastic_strain > leg.start.plastic_strain && von_mises_.modulus(s.plastic_strain) < 0.0) {
       const Moduli moduli = secant(leg.tension, s.crack_density);
-      const CriticalPlane plane = von_mises_critical_plane(
-          2.0 * moduli.shear * deviator(s.elastic_strain), moduli,
-          von_mises_.tangent_drop(moduli.shear, s.plastic_strain), decohesion_.parameters().search_all_planes);
+      const CriticalPlane plane =
+          von_mises_critical_plane(2.0 * moduli.shear * deviator(s.elastic_strain), moduli,
+                                   von_mises_.tangent_drop(moduli.shear, s.plastic_strain),
+                                   decohesion_.parameters().search_all_planes);
       value = std::min(value, 1.0 - plane.severity);
     }
   }
   return value;
 }
 
-/// Looks for the first localisation of the leg; when there is one, shortens `end` to it and sets the state there.
+/// Looks for the first localisation of the leg; when there is one, shortens `end` to it and sets the state
+/// there.
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed& at_end) const {
   const double growth = (at_end.state.crack_density - leg.start.crack_density) / crack_density_limit;
   const double plastic = at_end.state.plastic_strain - leg.start.plastic_strain;
   if (!(growth > 0.0) && !(plastic > 0.0)) return false;
-  // Samples fine enough that the criterion cannot cross zero twice between two of them; uniform in x where damage grows.
+  // Samples fine enough that the criterion cannot cross zero twice between two of them; uniform in x where
+  // damage grows.
   const int samples = static_cast<int>(std::min(1.0 + growth / 0.02 + plastic / 1.0e-3, 128.0));
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
   const auto critical = [&](double f) { return localisation_criterion(leg, follow(leg, f).state) <= 0.0; };
@@ -162,7 +170,8 @@ bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed
     if constexpr (D) {
       if (growth > 0.0 && (i < samples || at_end.state.crack_density >= crack_density_limit)) {
         const double density = leg.start.crack_density + growth * crack_density_limit * i / samples;
-        f = std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change, previous, end);
+        f = std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change,
+                       previous, end);
       }
     }
     if (critical(f)) {
@@ -206,24 +215,29 @@ void Composite<D, Y, C>::start_decohesion([[maybe_unused]] const Leg& leg, Point
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg, [[maybe_unused]] const PointState& end,
+void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
+                                       [[maybe_unused]] const PointState& end,
                                        [[maybe_unused]] double end_fraction, [[maybe_unused]] double done,
                                        [[maybe_unused]] PointReport& report) const {
   [[maybe_unused]] const auto of_increment = [done](double f) { return done + f * (1.0 - done); };
   if constexpr (D)
-    if (leg.start.crack_density == 0.0 && end.crack_density > 0.0) report.record(EventKind::damage, of_increment(0.0));
+    if (leg.start.crack_density == 0.0 && end.crack_density > 0.0)
+      report.record(EventKind::damage, of_increment(0.0));
   if constexpr (Y != Yielding::none) {
     if (end.plastic_strain <= leg.start.plastic_strain) return;
     const Moduli moduli = secant(leg.tension, leg.start.crack_density);
     // A start clearly inside the surface is an entry into plastic flow; on the surface, flow merely goes on.
-    const bool inside = yield_function(leg.start, moduli) < -1e-9 * moduli.shear * norm(deviator(end.elastic_strain));
+    const bool inside =
+        yield_function(leg.start, moduli) < -1e-9 * moduli.shear * norm(deviator(end.elastic_strain));
     if (inside || leg.start.plastic_strain == 0.0) {
       const auto yields = [&](double f) {
         PointState s = leg.start;
         s.elastic_strain += f * leg.strain;
         return yield_function(s, moduli) >= 0.0;
       };
-      const double at = yields(0.0) ? 0.0 : yields(end_fraction) ? first_reached(0.0, end_fraction, yields) : end_fraction;
+      const double at = yields(0.0)            ? 0.0
+                        : yields(end_fraction) ? first_reached(0.0, end_fraction, yields)
+                                               : end_fraction;
       report.record(EventKind::yield, of_increment(at));
     }
   }
@@ -238,26 +252,31 @@ void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg, [[maybe_
 
 /// Energy set free by the growth of damage on a leg, J/m^3.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const {
+double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& end,
+                                              double end_fraction) const {
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
   double x0 = leg.start.crack_density / crack_density_limit;
   const double x1 = end.crack_density / crack_density_limit;
   const double at_start = damage_.target(start_trace / 3.0, leg.coefficient);
   const auto fraction_at = [&](double density) {
-    return std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change, 0.0, end_fraction);
+    return std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change, 0.0,
+                      end_fraction);
   };
   // Growth begins where eq. 7 catches up with the crack density held so far, and ends at its cap.
   const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - 1e-12);
   const double from = grows_from_start ? 0.0 : fraction_at(leg.start.crack_density);
   const double to = x1 >= 1.0 ? fraction_at(crack_density_limit) : end_fraction;
-  // An initial stress may ask for more damage than the start holds: that much comes at once, at constant strain.
+  // An initial stress may ask for more damage than the start holds: that much comes at once, at constant
+  // strain.
   double sudden = 0.0;
   if (at_start > leg.start.crack_density * (1.0 + 1e-9)) {
     const double x = std::min(at_start / crack_density_limit, x1);
-    sudden = damage_.moduli(x0).energy(leg.start.elastic_strain) - damage_.moduli(x).energy(leg.start.elastic_strain);
+    sudden = damage_.moduli(x0).energy(leg.start.elastic_strain) -
+             damage_.moduli(x).energy(leg.start.elastic_strain);
     x0 = x;
   }
-  if constexpr (Y == Yielding::von_mises)  // plastic flow has taken part of the deviator: straight from start to end
+  if constexpr (Y == Yielding::von_mises)  // plastic flow has taken part of the deviator: straight from start
+                                           // to end
     return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain, end.elastic_strain);
   return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain + from * leg.strain,
                                       leg.start.elastic_strain + to * leg.strain);

@@ -3,16 +3,18 @@
 
 namespace vitrum {
 
-/// The rest of an increment after localisation (`done`: fraction of the increment before). Damage is frozen; the plane softens,
-/// separates, opens and closes; the material behind it may still flow.
+/// The rest of an increment after localisation (`done`: fraction of the increment before). Damage is frozen;
+/// the plane softens, separates, opens and closes; the material behind it may still flow.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,
-                                           PointReport& report) const {
+void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor& strain, double duration,
+                                           double done, PointReport& report) const {
   // Tension may have carried the point beyond the strength that it has under pressure.
-  const double outside_before = has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
+  const double outside_before =
+      has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
   double fraction = 0.0;
   const auto record = [&](EventKind kind, double f) { report.record(kind, done + f * (1.0 - done)); };
-  // Each pass takes the increment to its next event: onset of softening, a substep of it, separation, a change of side.
+  // Each pass takes the increment to its next event: onset of softening, a substep of it, separation, a
+  // change of side.
   for (int pass = 0; pass < 256 && fraction < 1.0; ++pass) {
     const double left = 1.0 - fraction;
     if (is_separated(s)) {
@@ -35,11 +37,13 @@ void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor&
   }
 }
 
-/// One pass of the softening plane (0 <= lambda < 1); returns the fraction of `strain` it consumed. at_once: takes what is left
-/// in one implicit step with the moduli of the start (for the rare path that chatters about zero mean strain).
+/// One pass of the softening plane (0 <= lambda < 1); returns the fraction of `strain` it consumed. at_once:
+/// takes what is left in one implicit step with the moduli of the start (for the rare path that chatters
+/// about zero mean strain).
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration, bool at_once,
-                                            double& separated_at, Dissipation& dissipation) const {
+double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration,
+                                            bool at_once, double& separated_at,
+                                            Dissipation& dissipation) const {
   const double start_trace = trace(s.elastic_strain), change = trace(strain);
   // The moduli are those of one side of zero mean strain: the pass ends where the side changes.
   bool tension = start_trace > 0.0 || (start_trace == 0.0 && change > 0.0);
@@ -52,48 +56,57 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   const Moduli moduli = secant(tension, s.crack_density);
   const DecohesionPlane plane{s.normal_r, s.normal_z};
   const auto traction_at = [&](double f) { return traction(plane, s.elastic_strain + f * strain, moduli); };
-  const auto effective = [&](const PlaneTraction& t) { return decohesion_.effective_traction(t.normal, t.tangential); };
+  const auto effective = [&](const PlaneTraction& t) {
+    return decohesion_.effective_traction(t.normal, t.tangential);
+  };
   const double strength = decohesion_.strength(s.decohesion, s.cohesive_strength);
   const double rounding = 1e-13 * (s.cohesive_strength + effective(traction_at(0.0)));
 
-  // Below the strength: elastic with the opening frozen (the norm of a straight path is convex, so the end tells).
+  // Below the strength: elastic with the opening frozen (the norm of a straight path is convex, so the end
+  // tells).
   if (effective(traction_at(end)) <= strength + rounding) {
     s.elastic_strain += end * strain;
     return end;
   }
   // (An equilibrium that was solved for may fall short of the strength by rounding.)
   if (effective(traction_at(0.0)) < strength - 1e-10 * s.cohesive_strength - rounding) {
-    const double onset = first_reached(0.0, end, [&](double f) { return effective(traction_at(f)) >= strength; });
+    const double onset =
+        first_reached(0.0, end, [&](double f) { return effective(traction_at(f)) >= strength; });
     s.elastic_strain += onset * strain;
     return onset;
   }
 
-  // Softening. The implicit step is exact in a pure mode; where the mode may turn, lambda moves by at most 0.1 at a time.
+  // Softening. The implicit step is exact in a pure mode; where the mode may turn, lambda moves by at most
+  // 0.1 at a time.
   const PlaneTraction start = traction_at(0.0);
-  const double denominator = decohesion_.hardening_denominator(s.decohesion, s.cohesive_strength, start, s.effective_length);
+  const double denominator =
+      decohesion_.hardening_denominator(s.decohesion, s.cohesive_strength, start, s.effective_length);
   const bool viscous = decohesion_.viscosity() > 0.0;
   const double wanted = effective(traction_at(end)) - strength;
   const double estimate = wanted / (decohesion_.reference_opening() * std::max(denominator, 1e-300));
-  const double step = denominator > 0.0 && !at_once ? end / std::clamp(std::ceil(estimate / 0.1), 1.0, 64.0) : end;
+  const double step =
+      denominator > 0.0 && !at_once ? end / std::clamp(std::ceil(estimate / 0.1), 1.0, 64.0) : end;
   const auto advanced = [&](double f) {
-    return decohesion_.advance(s.decohesion, s.cohesive_strength, traction_at(f), s.effective_length, f * duration);
+    return decohesion_.advance(s.decohesion, s.cohesive_strength, traction_at(f), s.effective_length,
+                               f * duration);
   };
   const auto soften = [&](double f, const DecohesionLaw::Advance& next) {
     const double growth = next.decohesion - s.decohesion;
     double surface = decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength);
     if (viscous && f * duration > 0.0)  // the overstress tau_np eta lambda' works on the opening as well
-      surface += decohesion_.reference_opening() * s.cohesive_strength * decohesion_.viscosity() * growth * growth /
-                 (f * duration);
+      surface += decohesion_.reference_opening() * s.cohesive_strength * decohesion_.viscosity() * growth *
+                 growth / (f * duration);
     dissipation.fracture += surface / s.effective_length;
-    s.elastic_strain += f * strain - plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
+    s.elastic_strain +=
+        f * strain - plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
     s.decohesion = next.decohesion;
     s.opening_n += next.normal_opening;
     s.opening_t += next.tangential_opening;
   };
 
   if (denominator <= 0.0 && !viscous) {
-    // Snap-back at constant strain: to the next equilibrium (q < 1), or to separation. A touch more than the traction at hand
-    // leaves the equilibrium that is lost.
+    // Snap-back at constant strain: to the next equilibrium (q < 1), or to separation. A touch more than the
+    // traction at hand leaves the equilibrium that is lost.
     const double carried = effective(start);
     const double push = (1.0 + 1e-10) * (carried > 0.0 ? std::max(1.0, strength / carried) : 1.0);
     PlaneTraction pushed = start;
@@ -118,7 +131,8 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
     soften(step, next);
     return step;
   }
-  // The last equilibrium before separation: lambda near 1, or less where the softening turns into a snap-back on its way.
+  // The last equilibrium before separation: lambda near 1, or less where the softening turns into a snap-back
+  // on its way.
   separated_at = first_reached(0.0, step, [&](double f) { return advanced(f).separates; });
   const double last = separated_at - 1e-12 * step;
   const DecohesionLaw::Advance before = advanced(std::max(last, 0.0));
@@ -145,18 +159,21 @@ void Composite<D, Y, C>::separate(PointState& s, const Moduli& moduli, Dissipati
   dissipation.snap_back += excess;
 }
 
-/// Opens, slides or closes the crack until its faces carry no traction, or only pressure once closed (frictionless).
+/// Opens, slides or closes the crack until its faces carry no traction, or only pressure once closed
+/// (frictionless).
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::relax_crack(PointState& s) const {
   const DecohesionPlane plane{s.normal_r, s.normal_z};
   const double length = s.effective_length;
   bool tension = trace(s.elastic_strain) > 0.0;
-  // The traction is a monotone, piecewise linear function of the opening (two bulk moduli): at most one change of side.
+  // The traction is a monotone, piecewise linear function of the opening (two bulk moduli): at most one
+  // change of side.
   for (int side = 0; side < 2; ++side) {
     const Moduli moduli = secant(tension, s.crack_density);
     const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
     const double opening = t.normal_stiffness > 0.0 ? length * t.normal / t.normal_stiffness : 0.0;
-    const double sliding = t.tangential_stiffness > 0.0 ? length * t.tangential / t.tangential_stiffness : 0.0;
+    const double sliding =
+        t.tangential_stiffness > 0.0 ? length * t.tangential / t.tangential_stiffness : 0.0;
     const double normal = std::max(opening, -s.opening_n);
     const SymmetricTensor relaxed = s.elastic_strain - plane.jump_strain(normal, sliding, length);
     if (side == 1 || (trace(relaxed) > 0.0) == tension) {
@@ -183,9 +200,11 @@ double Composite<D, Y, C>::advance_separated(PointState& s, const SymmetricTenso
   return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
 }
 
-/// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the material flows.
+/// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the
+/// material flows.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const {
+void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
+                                           Dissipation& dissipation) const {
   const auto excess = [&](const PointState& c) {  // > 0 outside the yield surface, Pa
     const bool tension = trace(c.elastic_strain) > 0.0;
     if (Y == Yielding::drucker_prager && tension) return -1.0;
@@ -199,8 +218,9 @@ void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
     return;
   }
 
-  // Flow and traction-free faces are met in turn. Each turn brings the excess down by a nearly constant factor, which the next
-  // one anticipates: it flows as much more as relaxing the faces gave back the last time.
+  // Flow and traction-free faces are met in turn. Each turn brings the excess down by a nearly constant
+  // factor, which the next one anticipates: it flows as much more as relaxing the faces gave back the last
+  // time.
   const double stored = stored_energy(s);
   double factor = 1.0, last = violated, along_surface = 0.0;
   for (int turn = 0; turn < 50 && last > tolerance; ++turn) {
@@ -211,13 +231,15 @@ void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
     factor = std::clamp(factor / (1.0 - value / last), 1.0, 4.0);
     last = value;
   }
-  // What was outside before the increment falls onto the surface at once and loses all its energy; the rest flows along it.
-  const double lost = std::max(0.0, stored - stored_energy(s)), sudden_share = std::min(1.0, outside_before / violated);
+  // What was outside before the increment falls onto the surface at once and loses all its energy; the rest
+  // flows along it.
+  const double lost = std::max(0.0, stored - stored_energy(s)),
+               sudden_share = std::min(1.0, outside_before / violated);
   dissipation.plastic += sudden_share * lost + (1.0 - sudden_share) * std::min(lost, along_surface);
 }
 
-/// Plastic flow that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the deviator. Returns its work
-/// at the stress after it, J/m^3.
+/// Plastic flow that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the
+/// deviator. Returns its work at the stress after it, J/m^3.
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess) const {
   const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);

@@ -4,7 +4,8 @@
 
 namespace vitrum {
 namespace {
-// Gauss-Legendre on [0, 1]. Six points integrate the x ~ eps^m rise of a whole increment from zero; two suffice for a small one.
+// Gauss-Legendre on [0, 1]. Six points integrate the x ~ eps^m rise of a whole increment from zero; two
+// suffice for a small one.
 constexpr std::array<std::array<double, 2>, 6> six_points{{{0.03376524289842397, 0.08566224618958517},
                                                            {0.16939530676686776, 0.18038078652406930},
                                                            {0.38069040695840156, 0.23395696728634552},
@@ -24,7 +25,8 @@ DamageLaw::DamageLaw(const DamageParameters& parameters, const ElasticParameters
   if (rounded == parameters.m && rounded <= 32.0) integer_exponent_ = static_cast<unsigned>(rounded);
 }
 
-double DamageLaw::dissipation(double x0, double x1, const SymmetricTensor& e0, const SymmetricTensor& e1) const {
+double DamageLaw::dissipation(double x0, double x1, const SymmetricTensor& e0,
+                              const SymmetricTensor& e1) const {
   const double trace0 = trace(e0), trace1 = trace(e1);
   if (x1 <= x0 || trace1 <= trace0) return 0.0;
   const SymmetricTensor step = e1 - e0;

@@ -10,11 +10,11 @@ namespace vitrum {
 
 /// Scene table [material.NAME.damage]: rate-dependent tensile damage, eqs. 4-9.
 struct DamageParameters {
-  double toughness = 0.0;      ///< K_IC, Pa sqrt(m)
-  double k = 0.0;              ///< 1/m^3
-  double m = 0.0;              ///< exponent of eq. 7
-  double rate_floor = 0.0;     ///< 1/s, least rate that enters eq. 7
-  double fixed_rate = 0.0;     ///< 1/s; > 0: this rate enters eq. 7 instead of the running maximum
+  double toughness = 0.0;   ///< K_IC, Pa sqrt(m)
+  double k = 0.0;           ///< 1/m^3
+  double m = 0.0;           ///< exponent of eq. 7
+  double rate_floor = 0.0;  ///< 1/s, least rate that enters eq. 7
+  double fixed_rate = 0.0;  ///< 1/s; > 0: this rate enters eq. 7 instead of the running maximum
 
   static std::span<const ParameterInfo<DamageParameters>> describe();
 };
@@ -64,8 +64,8 @@ class DamageLaw {
     return crack_density <= 0.0 ? 0.0 : std::pow(crack_density / coefficient, 1.0 / parameters_.m);
   }
 
-  /// Phi / (undamaged P-wave modulus): <= 0 where a plane whose normal sees the strain `normal_strain` admits a discontinuity
-  /// of the strain rate while damage grows. trace: eps_kk > 0.
+  /// Phi / (undamaged P-wave modulus): <= 0 where a plane whose normal sees the strain `normal_strain` admits
+  /// a discontinuity of the strain rate while damage grows. trace: eps_kk > 0.
   double bifurcation(double x, double trace, double normal_strain) const {
     const Moduli now = moduli(x), slope = moduli_derivative(x);
     const double phi =
@@ -74,8 +74,8 @@ class DamageLaw {
     return phi / undamaged_.p_wave();
   }
 
-  /// Energy that growth from x0 to x1 sets free (J/m^3) while the strain runs from e0 linearly to e1 along eq. 7, i.e. while
-  /// x = x1 (eps_v / eps_v1)^m: the integral of -e : dE/dx : e / 2 dx. Never negative.
+  /// Energy that growth from x0 to x1 sets free (J/m^3) while the strain runs from e0 linearly to e1 along
+  /// eq. 7, i.e. while x = x1 (eps_v / eps_v1)^m: the integral of -e : dE/dx : e / 2 dx. Never negative.
   double dissipation(double x0, double x1, const SymmetricTensor& e0, const SymmetricTensor& e1) const;
 
   double exponent() const { return parameters_.m; }

@@ -4,18 +4,24 @@
 
 namespace vitrum {
 
-DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_strength, const PlaneTraction& trial,
-                                              double length, double duration) const {
-  // With tau_i = tau_i,trial N / (N + a Q_i c_i), a = dlambda u0 / L_e and c = (1, 1/C_m^2), the flow rule (eq. 16) and eq. 13
-  // become one equation in dlambda:  sum_i c_i tau_i,trial^2 / (S + a Q_i c_i)^2 = 1, S = strength (+ viscous overstress).
-  if (parameters_.viscosity > 0.0 && !(duration > 0.0)) return {lambda0, 0.0, 0.0, false};  // a jump leaves no time to creep
+DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_strength,
+                                              const PlaneTraction& trial, double length,
+                                              double duration) const {
+  // With tau_i = tau_i,trial N / (N + a Q_i c_i), a = dlambda u0 / L_e and c = (1, 1/C_m^2), the flow rule
+  // (eq. 16) and eq. 13 become one equation in dlambda:  sum_i c_i tau_i,trial^2 / (S + a Q_i c_i)^2 = 1, S =
+  // strength (+ viscous overstress).
+  if (parameters_.viscosity > 0.0 && !(duration > 0.0))
+    return {lambda0, 0.0, 0.0, false};  // a jump leaves no time to creep
   const double u0 = parameters_.opening;
   const double n2 = std::max(trial.normal, 0.0) * std::max(trial.normal, 0.0);
   const double t2 = shear_weight_ * trial.tangential * trial.tangential;
   const double stiffness_n = trial.normal_stiffness * u0 / length;
   const double stiffness_t = trial.tangential_stiffness * shear_weight_ * u0 / length;
-  const double overstress = parameters_.viscosity > 0.0 ? onset_strength * parameters_.viscosity / duration : 0.0;
-  const auto carried = [&](double step) { return strength(lambda0 + step, onset_strength) + overstress * step; };
+  const double overstress =
+      parameters_.viscosity > 0.0 ? onset_strength * parameters_.viscosity / duration : 0.0;
+  const auto carried = [&](double step) {
+    return strength(lambda0 + step, onset_strength) + overstress * step;
+  };
   // > 0 where the trial exceeds what the plane carries after `step`.
   const auto imbalance = [&](double step) {
     const double s = carried(step), dn = s + stiffness_n * step, dt = s + stiffness_t * step;
@@ -23,8 +29,8 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
   };
   const auto in_equilibrium = [&](double step) { return imbalance(step) <= 0.0; };
 
-  // The smallest equilibrium: grow the bracket from an estimate of the step. Shortly before a snap-back the equilibrium is a
-  // narrow dip of the imbalance, which the bracket may step over.
+  // The smallest equilibrium: grow the bracket from an estimate of the step. Shortly before a snap-back the
+  // equilibrium is a narrow dip of the imbalance, which the bracket may step over.
   const double left = 1.0 - lambda0;
   const double excess = std::sqrt(n2 + t2) - carried(0.0);
   double high = std::min(left, std::max(excess / std::max(stiffness_n + stiffness_t, 1.0), 1e-14));
@@ -57,8 +63,8 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
   return {lambda0 + step, step * u0 * tau_n / N, step * u0 * shear_weight_ * tau_t / N, false};
 }
 
-double DecohesionLaw::hardening_denominator(double lambda, double onset_strength, const PlaneTraction& traction,
-                                            double length) const {
+double DecohesionLaw::hardening_denominator(double lambda, double onset_strength,
+                                            const PlaneTraction& traction, double length) const {
   const double N = effective_traction(traction.normal, traction.tangential);
   const double mn = N > 0.0 ? std::max(traction.normal, 0.0) / N : 1.0;
   const double mt = N > 0.0 ? shear_weight_ * traction.tangential / N : 0.0;

@@ -19,8 +19,8 @@ struct DecohesionParameters {
   static std::span<const ParameterInfo<DecohesionParameters>> describe();
 };
 
-/// A plane through a material point: unit normal n and tangent t = n turned by +90 degrees; both components 0: the hoop plane,
-/// which carries no shear in these geometries.
+/// A plane through a material point: unit normal n and tangent t = n turned by +90 degrees; both components
+/// 0: the hoop plane, which carries no shear in these geometries.
 struct DecohesionPlane {
   double r, z;
 
@@ -37,13 +37,16 @@ struct DecohesionPlane {
     const double n = normal / length, t = tangential / length;
     return {n * r * r - t * r * z, n * z * z + t * r * z, 0.0, n * r * z + 0.5 * t * (r * r - z * z)};
   }
-  /// L_e: volume over plane area of a square cell of side `cell` (m), eq. 12; the cell's side for a hoop plane.
-  double effective_length(double cell) const { return hoop() ? cell : cell * std::max(std::abs(r), std::abs(z)); }
+  /// L_e: volume over plane area of a square cell of side `cell` (m), eq. 12; the cell's side for a hoop
+  /// plane.
+  double effective_length(double cell) const {
+    return hoop() ? cell : cell * std::max(std::abs(r), std::abs(z));
+  }
 };
 
 /// Traction on the decohesion plane and the stiffness of the material behind it.
 struct PlaneTraction {
-  double normal, tangential;                    ///< Pa
+  double normal, tangential;                      ///< Pa
   double normal_stiffness, tangential_stiffness;  ///< diagonal of Q_e: lambda + 2G and G, Pa
 };
 
@@ -54,7 +57,8 @@ class DecohesionLaw {
   explicit DecohesionLaw(const DecohesionParameters& parameters)
       : parameters_(parameters), shear_weight_(1.0 / (parameters.mode_ratio * parameters.mode_ratio)) {}
 
-  /// N = sqrt(<tau_n>^2 + (tau_t/C_m)^2), Pa: the effective traction over u0 (eq. 15 with tau_bar_0 = tau_np).
+  /// N = sqrt(<tau_n>^2 + (tau_t/C_m)^2), Pa: the effective traction over u0 (eq. 15 with tau_bar_0 =
+  /// tau_np).
   double effective_traction(double normal, double tangential) const {
     const double n = std::max(normal, 0.0);
     return std::sqrt(n * n + shear_weight_ * tangential * tangential);
@@ -63,7 +67,8 @@ class DecohesionLaw {
   double strength(double decohesion, double onset_strength) const {
     return onset_strength * (1.0 - power(decohesion));
   }
-  /// Energy per area that eq. 13 dissipates from lambda0 to lambda1, J/m^2 (U0/2 in all for q = 1), whatever the mode.
+  /// Energy per area that eq. 13 dissipates from lambda0 to lambda1, J/m^2 (U0/2 in all for q = 1), whatever
+  /// the mode.
   double surface_energy(double lambda0, double lambda1, double onset_strength) const {
     const double q1 = parameters_.q + 1.0;
     return parameters_.opening * onset_strength *
@@ -71,17 +76,17 @@ class DecohesionLaw {
   }
 
   struct Advance {
-    double decohesion;                      ///< lambda at the end
+    double decohesion;                          ///< lambda at the end
     double normal_opening, tangential_opening;  ///< increments, m
-    bool separates;                         ///< no equilibrium is left before lambda = 1
+    bool separates;                             ///< no equilibrium is left before lambda = 1
   };
-  /// Implicit step from lambda0 under a trial traction that exceeds the strength. length: L_e, m; duration: s (used with a
-  /// viscosity only).
+  /// Implicit step from lambda0 under a trial traction that exceeds the strength. length: L_e, m; duration: s
+  /// (used with a viscosity only).
   Advance advance(double lambda0, double onset_strength, const PlaneTraction& trial, double length,
                   double duration) const;
 
-  /// Rate of lambda per unit rate of the trial effective traction, over u0: the denominator of eqs. 12-13 in the form
-  /// [m.Q.m/L_e - U0 q lambda^(q-1)] / u0^2, Pa/m; <= 0: snap-back.
+  /// Rate of lambda per unit rate of the trial effective traction, over u0: the denominator of eqs. 12-13 in
+  /// the form [m.Q.m/L_e - U0 q lambda^(q-1)] / u0^2, Pa/m; <= 0: snap-back.
   double hardening_denominator(double lambda, double onset_strength, const PlaneTraction& traction,
                                double length) const;
 
@@ -90,7 +95,9 @@ class DecohesionLaw {
   double reference_opening() const { return parameters_.opening; }
 
  private:
-  double power(double lambda) const { return parameters_.q == 1.0 ? lambda : std::pow(lambda, parameters_.q); }
+  double power(double lambda) const {
+    return parameters_.q == 1.0 ? lambda : std::pow(lambda, parameters_.q);
+  }
 
   DecohesionParameters parameters_;
   double shear_weight_ = 1.0;  // 1 / C_m^2

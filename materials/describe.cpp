@@ -58,7 +58,8 @@ std::span<const ParameterInfo<DecohesionParameters>> DecohesionParameters::descr
       {"opening", &P::opening, "m", {}, positive, "reference decohesion u0, eq. 15"},
       {"q", &P::q, "1", 1.0, {0.0, 100.0, true}, "exponent q of the softening, eq. 13"},
       {"mode_ratio", &P::mode_ratio, "1", {}, positive, "C_m = tau_tp / tau_np, eq. 18"},
-      {"viscosity", &P::viscosity, "s", 0.0, not_negative, "viscosity eta of eta lambda' = <f>/U0; 0: a snap-back releases at once"},
+      {"viscosity", &P::viscosity, "s", 0.0, not_negative,
+       "viscosity eta of eta lambda' = <f>/U0; 0: a snap-back releases at once"},
   }};
   return table;
 }
@@ -66,17 +67,37 @@ std::span<const ParameterInfo<DecohesionParameters>> DecohesionParameters::descr
 std::span<const VariableInfo> all_variables() {
   using V = Variable;
   static constexpr std::array<VariableInfo, variable_count> table{{
-      {V::crack_density, "crack_density", "1", crack_density_limit, {0.0, crack_density_limit}, "crack density rho_d, eq. 7"},
-      {V::max_rate, "max_rate", "1/s", 1.0e3, not_negative, "running maximum of the tensile mean strain rate, eq. 7"},
-      {V::plastic_strain, "plastic_strain", "1", 1.0e-2, not_negative, "accumulated plastic strain I, the integral of |d eps_p|, eq. 23"},
+      {V::crack_density,
+       "crack_density",
+       "1",
+       crack_density_limit,
+       {0.0, crack_density_limit},
+       "crack density rho_d, eq. 7"},
+      {V::max_rate, "max_rate", "1/s", 1.0e3, not_negative,
+       "running maximum of the tensile mean strain rate, eq. 7"},
+      {V::plastic_strain, "plastic_strain", "1", 1.0e-2, not_negative,
+       "accumulated plastic strain I, the integral of |d eps_p|, eq. 23"},
       {V::decohesion, "decohesion", "1", 1.0, {0.0, 1.0}, "decohesion lambda, eq. 13; 1 means separated"},
       {V::opening_n, "opening_n", "m", 1.0e-6, any, "normal opening of the decohesion plane, eq. 14"},
       {V::opening_t, "opening_t", "m", 1.0e-6, any, "tangential opening of the decohesion plane, eq. 14"},
-      {V::normal_r, "normal_r", "1", 1.0, {-1.0, 1.0}, "r (x) component of the normal of the decohesion plane; both components 0: hoop plane or intact"},
-      {V::normal_z, "normal_z", "1", 1.0, {-1.0, 1.0}, "z (y) component of the normal of the decohesion plane"},
-      {V::effective_length, "effective_length", "m", 1.0e-3, not_negative, "effective length L_e, eq. 12; 0 means not localised"},
-      {V::cohesive_strength, "cohesive_strength", "Pa", 1.0e8, not_negative, "traction tau_np at the onset of decohesion, eq. 18"},
-      {V::dissipated, "dissipated", "J/m^3", 1.0e4, not_negative, "energy dissipated by all models, per volume of material"},
+      {V::normal_r,
+       "normal_r",
+       "1",
+       1.0,
+       {-1.0, 1.0},
+       "r (x) component of the normal of the decohesion plane; both components 0: hoop plane or intact"},
+      {V::normal_z,
+       "normal_z",
+       "1",
+       1.0,
+       {-1.0, 1.0},
+       "z (y) component of the normal of the decohesion plane"},
+      {V::effective_length, "effective_length", "m", 1.0e-3, not_negative,
+       "effective length L_e, eq. 12; 0 means not localised"},
+      {V::cohesive_strength, "cohesive_strength", "Pa", 1.0e8, not_negative,
+       "traction tau_np at the onset of decohesion, eq. 18"},
+      {V::dissipated, "dissipated", "J/m^3", 1.0e4, not_negative,
+       "energy dissipated by all models, per volume of material"},
   }};
   return table;
 }

@@ -17,23 +17,25 @@ struct Bounds {
   }
 };
 
-/// A number a model reads from the scene. The scene reader, the scene reference and the resolved scene are generated from this.
+/// A number a model reads from the scene. The scene reader, the scene reference and the resolved scene are
+/// generated from this.
 template <class Parameters>
 struct ParameterInfo {
-  std::string_view name;            ///< key in the scene
+  std::string_view name;  ///< key in the scene
   double Parameters::*member;
-  std::string_view unit;            ///< "1" for pure numbers
-  std::optional<double> fallback;   ///< value when the key is absent; none: the key is required
+  std::string_view unit;           ///< "1" for pure numbers
+  std::optional<double> fallback;  ///< value when the key is absent; none: the key is required
   Bounds bounds;
-  std::string_view description;     ///< one phrase, with the paper's equation number
+  std::string_view description;  ///< one phrase, with the paper's equation number
 };
 
-/// An internal variable a model carries. Output attributes, the result reference and tolerances are generated from this.
+/// An internal variable a model carries. Output attributes, the result reference and tolerances are generated
+/// from this.
 struct VariableInfo {
   Variable variable;
-  std::string_view name;            ///< column of the CSV file, dataset of the result file
+  std::string_view name;  ///< column of the CSV file, dataset of the result file
   std::string_view unit;
-  double scale;                     ///< magnitude at which it matters (error weights)
+  double scale;  ///< magnitude at which it matters (error weights)
   Bounds bounds;
   std::string_view description;
 };

@@ -4,8 +4,8 @@
 
 namespace vitrum {
 
-PlasticReturn DruckerPragerLaw::flow(SymmetricTensor& elastic_strain, const Moduli& moduli, double violated_before,
-                                     double& plastic_strain) const {
+PlasticReturn DruckerPragerLaw::flow(SymmetricTensor& elastic_strain, const Moduli& moduli,
+                                     double violated_before, double& plastic_strain) const {
   const double f = yield_function(elastic_strain, moduli);
   if (!(f > 0.0)) return {};
   const double K = moduli.bulk, G = moduli.shear;
@@ -25,7 +25,8 @@ PlasticReturn DruckerPragerLaw::flow(SymmetricTensor& elastic_strain, const Modu
   elastic_strain = {scale * d.rr + mean, scale * d.zz + mean, scale * d.tt + mean, scale * d.rz};
   plastic_strain += multiplier * std::sqrt(1.5 + dilatancy_ * dilatancy_ / 3.0);
 
-  // On the surface q - beta_psi P dissipates per unit of the multiplier; a violation at the start releases along the chord.
+  // On the surface q - beta_psi P dissipates per unit of the multiplier; a violation at the start releases
+  // along the chord.
   const double pressure = -K * end_trace, trial_pressure = -K * trial_trace;
   const double on_surface = q - dilatancy_ * pressure;
   const double sudden_share = std::clamp(violated_before / f, 0.0, 1.0);

@@ -9,14 +9,15 @@ namespace vitrum {
 
 /// Scene table [material.NAME.drucker_prager]: perfect plasticity under compression, eq. 19.
 struct DruckerPragerParameters {
-  double yield = 0.0;        ///< sigma_y, Pa
-  double beta = 0.0;         ///< pressure sensitivity
-  bool associated = false;   ///< flow = "associated"; otherwise "isochoric"
+  double yield = 0.0;       ///< sigma_y, Pa
+  double beta = 0.0;        ///< pressure sensitivity
+  bool associated = false;  ///< flow = "associated"; otherwise "isochoric"
 
   static std::span<const ParameterInfo<DruckerPragerParameters>> describe();
 };
 
-/// The law of eq. 19, q - (sigma_y + beta P) = 0, where P >= 0. (The squared form of the paper has a second nappe.)
+/// The law of eq. 19, q - (sigma_y + beta P) = 0, where P >= 0. (The squared form of the paper has a second
+/// nappe.)
 class DruckerPragerLaw {
  public:
   DruckerPragerLaw() = default;
@@ -31,8 +32,9 @@ class DruckerPragerLaw {
   }
   double strength(double pressure) const { return parameters_.yield + parameters_.beta * pressure; }
 
-  /// Returns a trial elastic strain to the surface and adds to `plastic_strain` (the integral of |d eps_p|). `violated_before`:
-  /// f at the start of the increment, Pa; what exceeds zero there flows at once, the rest along the surface.
+  /// Returns a trial elastic strain to the surface and adds to `plastic_strain` (the integral of |d eps_p|).
+  /// `violated_before`: f at the start of the increment, Pa; what exceeds zero there flows at once, the rest
+  /// along the surface.
   PlasticReturn flow(SymmetricTensor& elastic_strain, const Moduli& moduli, double violated_before,
                      double& plastic_strain) const;
 

@@ -40,8 +40,9 @@ struct Moduli {
   }
 };
 
-/// Energy stored per reference volume V0, J/m^3, when the stress of `e` acts on the volume V0 (1 + tr e): exact for changes of volume
-/// and for changes of shape at constant volume. (The two together have no potential; docs/theory.md states the defect.)
+/// Energy stored per reference volume V0, J/m^3, when the stress of `e` acts on the volume V0 (1 + tr e):
+/// exact for changes of volume and for changes of shape at constant volume. (The two together have no
+/// potential; docs/theory.md states the defect.)
 constexpr double stored_energy_of_volume(const Moduli& moduli, const SymmetricTensor& e) {
   const double t = trace(e);
   const SymmetricTensor d = deviator(e);

@@ -19,8 +19,9 @@ struct Event {
   double fraction;
 };
 
-/// Energy turned into heat and surface by an increment, J per m^3 of material. `snap_back` is the part of `fracture` that an
-/// instantaneous release dissipated beyond what the traction-opening relation of eq. 13 asks for.
+/// Energy turned into heat and surface by an increment, J per m^3 of material. `snap_back` is the part of
+/// `fracture` that an instantaneous release dissipated beyond what the traction-opening relation of eq. 13
+/// asks for.
 struct Dissipation {
   double plastic = 0.0, damage = 0.0, fracture = 0.0, snap_back = 0.0;
 
@@ -35,7 +36,7 @@ struct Dissipation {
 struct PointReport {
   static constexpr std::size_t capacity = 16;
   std::array<Event, capacity> events{};
-  std::size_t event_count = 0;   ///< an increment that fires more keeps the first `capacity`
+  std::size_t event_count = 0;  ///< an increment that fires more keeps the first `capacity`
   Dissipation dissipation;
 
   void record(EventKind kind, double fraction) {
@@ -49,25 +50,28 @@ struct ParticleEvent {
   Event event;
 };
 
-/// Pointers to the columns of a range of particles (structure of arrays); null where the material has no such variable.
+/// Pointers to the columns of a range of particles (structure of arrays); null where the material has no such
+/// variable.
 struct ParticleColumns {
-  std::array<double*, 4> elastic_strain{};                ///< components rr, zz, tt, rz
-  std::array<double*, 4> stress{};                        ///< Pa
-  std::array<double*, variable_count> variables{};        ///< by Variable
-  std::array<const double*, 4> strain_increment{};        ///< in the frame that turns with the particle (corotational)
-  const double* spin_increment = nullptr;                 ///< rad, counter-clockwise from r to z
-  const double* mass = nullptr;                           ///< kg (per radian or per metre)
+  std::array<double*, 4> elastic_strain{};          ///< components rr, zz, tt, rz
+  std::array<double*, 4> stress{};                  ///< Pa
+  std::array<double*, variable_count> variables{};  ///< by Variable
+  std::array<const double*, 4>
+      strain_increment{};                  ///< in the frame that turns with the particle (corotational)
+  const double* spin_increment = nullptr;  ///< rad, counter-clockwise from r to z
+  const double* mass = nullptr;            ///< kg (per radian or per metre)
 };
 
 /// Sums over a range of particles, joules (per radian or per metre).
 struct BatchReport {
-  double elastic = 0.0;                 ///< stored energy at the end of the increment
-  Dissipation dissipated;               ///< joules here, not J/m^3
+  double elastic = 0.0;    ///< stored energy at the end of the increment
+  Dissipation dissipated;  ///< joules here, not J/m^3
   std::vector<ParticleEvent> events;
 };
 
-/// One point's constitutive law: isotropic elasticity + optional damage + optional plasticity + optional decohesion.
-/// Pure functions of (state, increment) to (state, stress); a material owns no particle and knows no grid.
+/// One point's constitutive law: isotropic elasticity + optional damage + optional plasticity + optional
+/// decohesion. Pure functions of (state, increment) to (state, stress); a material owns no particle and knows
+/// no grid.
 class Material {
  public:
   virtual ~Material() = default;
@@ -79,8 +83,8 @@ class Material {
   virtual double wave_speed() const = 0;
   /// State at the start under a given stress (Pa).
   virtual PointState initial_state(const SymmetricTensor& stress) const = 0;
-  /// Closed-form response to a strain increment that is linear in time over `duration` seconds (> 0, or 0 for a jump).
-  /// The increment is given in the material's own turning frame; the state is not rotated here.
+  /// Closed-form response to a strain increment that is linear in time over `duration` seconds (> 0, or 0 for
+  /// a jump). The increment is given in the material's own turning frame; the state is not rotated here.
   virtual void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,
                        PointReport& report) const = 0;
   /// The same for particles [begin, end), rotating each result by its spin. `report` is added to.
@@ -91,10 +95,13 @@ class Material {
   /// Scalar damage D of eq. 8 (0 without a damage model).
   virtual double damage(const PointState& state) const = 0;
   /// Energy stored per volume of material, J/m^3.
-  double stored_energy(const PointState& state) const { return secant_moduli(state).energy(state.elastic_strain); }
+  double stored_energy(const PointState& state) const {
+    return secant_moduli(state).energy(state.elastic_strain);
+  }
 };
 
-/// Composes the models that `parameters` names. cell: side of the grid cells, m (for the effective length L_e).
+/// Composes the models that `parameters` names. cell: side of the grid cells, m (for the effective length
+/// L_e).
 std::shared_ptr<const Material> make_material(const MaterialParameters& parameters, double cell);
 
 }  // namespace vitrum

@@ -3,8 +3,8 @@
 
 namespace vitrum {
 
-/// Least argument found in (low, high] at which `reached` holds, by bisection to the last bit of the interval; `reached(high)`
-/// must hold. Works across jumps, and ends on the side where it holds.
+/// Least argument found in (low, high] at which `reached` holds, by bisection to the last bit of the
+/// interval; `reached(high)` must hold. Works across jumps, and ends on the side where it holds.
 template <class Predicate>
 double first_reached(double low, double high, Predicate&& reached) {
   for (int i = 0; i < 60; ++i) {
@@ -15,7 +15,8 @@ double first_reached(double low, double high, Predicate&& reached) {
   return high;
 }
 
-/// Argument of the least value of `function` in [low, high], where it falls and then rises, by golden section.
+/// Argument of the least value of `function` in [low, high], where it falls and then rises, by golden
+/// section.
 template <class Function>
 double least_argument(double low, double high, Function&& function) {
   constexpr double golden = 0.61803398874989485;

@@ -3,9 +3,13 @@
 namespace vitrum {
 namespace {
 
-Eigen::Vector4d vector(const SymmetricTensor& a) { return {a.rr, a.zz, a.tt, a.rz}; }
+Eigen::Vector4d vector(const SymmetricTensor& a) {
+  return {a.rr, a.zz, a.tt, a.rz};
+}
 /// The row that gives a : b from the column (b_rr, b_zz, b_tt, b_rz).
-Eigen::RowVector4d contraction(const SymmetricTensor& a) { return {a.rr, a.zz, a.tt, 2.0 * a.rz}; }
+Eigen::RowVector4d contraction(const SymmetricTensor& a) {
+  return {a.rr, a.zz, a.tt, 2.0 * a.rz};
+}
 
 }  // namespace
 
@@ -20,20 +24,24 @@ Tangent damage_tangent(const DamageLaw& law, double x, const SymmetricTensor& e)
   const Moduli slope = law.moduli_derivative(x);
   const double t = trace(e);
   // x' = m x tr(e') / tr(e) on eq. 7, so sigma' = E_ed : e' + (dE_ed/dx : e) x'.
-  const SymmetricTensor loss = (law.exponent() * x / t) * (slope.bulk * t * identity() + 2.0 * slope.shear * deviator(e));
+  const SymmetricTensor loss =
+      (law.exponent() * x / t) * (slope.bulk * t * identity() + 2.0 * slope.shear * deviator(e));
   return elastic_tangent(law.moduli(x)) + vector(loss) * contraction(identity());
 }
 
-Tangent von_mises_tangent(const VonMisesLaw& law, const Moduli& m, const SymmetricTensor& stress, double plastic_strain) {
+Tangent von_mises_tangent(const VonMisesLaw& law, const Moduli& m, const SymmetricTensor& stress,
+                          double plastic_strain) {
   const SymmetricTensor s = deviator(stress);
   const double H = law.tangent_drop(m.shear, plastic_strain) / contract(s, s);
   return elastic_tangent(m) - H * vector(s) * contraction(s);
 }
 
-Tangent drucker_prager_tangent(const DruckerPragerParameters& p, const Moduli& m, const SymmetricTensor& stress) {
+Tangent drucker_prager_tangent(const DruckerPragerParameters& p, const Moduli& m,
+                               const SymmetricTensor& stress) {
   const SymmetricTensor s = deviator(stress);
   const double q = std::sqrt(1.5 * contract(s, s)), dilatancy = p.associated ? p.beta : 0.0;
-  // f' = (3G/q) s : e' + beta K tr(e'); the return takes (3G/q) s - K beta_psi I (tension positive) per unit multiplier.
+  // f' = (3G/q) s : e' + beta K tr(e'); the return takes (3G/q) s - K beta_psi I (tension positive) per unit
+  // multiplier.
   const SymmetricTensor gradient = (3.0 * m.shear / q) * s + (p.beta * m.bulk) * identity();
   const SymmetricTensor direction = (3.0 * m.shear / q) * s + (dilatancy * m.bulk) * identity();
   return elastic_tangent(m) -

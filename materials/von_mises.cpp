@@ -5,7 +5,8 @@ namespace vitrum {
 PlasticReturn VonMisesLaw::flow(double trial, double shear, double& plastic_strain) const {
   PlasticReturn result;
   double stress = trial;  // |s| of the trial minus what has flowed so far
-  double carried = radius(plastic_strain);  // |s| that the material bears; above the strength while a snap-back falls
+  double carried =
+      radius(plastic_strain);  // |s| that the material bears; above the strength while a snap-back falls
   // Hardening, softening and floor branches, each with its own linear consistency condition.
   for (int branch = 0; branch < 3; ++branch) {
     const double start_radius = radius(plastic_strain);
@@ -34,24 +35,27 @@ PlasticReturn VonMisesLaw::flow(double trial, double shear, double& plastic_stra
   return result;
 }
 
-CriticalPlane von_mises_critical_plane(const SymmetricTensor& s, const Moduli& moduli, double tangent_drop, bool all) {
+CriticalPlane von_mises_critical_plane(const SymmetricTensor& s, const Moduli& moduli, double tangent_drop,
+                                       bool all) {
   const double G = moduli.shear, M = moduli.p_wave();
   const double squared_norm = contract(s, s);
   if (!(squared_norm > 0.0)) return {0.0, 0.0, 0.0};
   const InPlanePrincipal p = in_plane_principal(s);
   const double centre = 0.5 * (p.major + p.minor), radius = 0.5 * (p.major - p.minor);
 
-  // |s.n|^2 in the metric of the elastic acoustic tensor: tau^2/G + s_n^2/M, maximal at cos 2theta (eq. 26); outside [-1, 1]
-  // the extreme is the axis with the larger |s_n|.
+  // |s.n|^2 in the metric of the elastic acoustic tensor: tau^2/G + s_n^2/M, maximal at cos 2theta (eq. 26);
+  // outside [-1, 1] the extreme is the axis with the larger |s_n|.
   double cosine = radius > 0.0 ? centre * G / (radius * (M - G)) : (centre >= 0.0 ? 1.0 : -1.0);
   cosine = std::clamp(cosine, -1.0, 1.0);
   const double normal_stress = centre + radius * cosine;
   const double quotient = radius * radius * (1.0 - cosine * cosine) / G + normal_stress * normal_stress / M;
   const double c = std::sqrt(0.5 * (1.0 + cosine)), d = std::sqrt(0.5 * (1.0 - cosine));
-  // n = cos(theta) e1 +- sin(theta) e3, e3 = e1 turned by +90 degrees. Of the two conjugate planes the one that
-  // faces z more is taken: a rule that mirror images of a state share. (Where both face z alike, the sign is +.)
+  // n = cos(theta) e1 +- sin(theta) e3, e3 = e1 turned by +90 degrees. Of the two conjugate planes the one
+  // that faces z more is taken: a rule that mirror images of a state share. (Where both face z alike, the
+  // sign is +.)
   const double plus_r = c * p.direction_r - d * p.direction_z, plus_z = c * p.direction_z + d * p.direction_r;
-  const double minus_r = c * p.direction_r + d * p.direction_z, minus_z = c * p.direction_z - d * p.direction_r;
+  const double minus_r = c * p.direction_r + d * p.direction_z,
+               minus_z = c * p.direction_z - d * p.direction_r;
   const bool minus = std::abs(minus_z) > std::abs(plus_z);
   CriticalPlane plane{tangent_drop / squared_norm * quotient, minus ? minus_r : plus_r,
                       minus ? minus_z : plus_z};

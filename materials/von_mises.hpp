@@ -37,7 +37,8 @@ class VonMisesLaw {
                         : std::numeric_limits<double>::infinity();
   }
 
-  /// The strength never falls below this fraction of the peak (linear softening would reach zero and turn negative).
+  /// The strength never falls below this fraction of the peak (linear softening would reach zero and turn
+  /// negative).
   static constexpr double residual_fraction = 1.0e-3;
 
   double peak_strain() const { return peak_strain_; }  ///< I_p
@@ -57,8 +58,9 @@ class VonMisesLaw {
   /// Radius of the yield surface |s| = sqrt(2/3) sigma_bar, Pa.
   double radius(double plastic_strain) const { return factor * strength(plastic_strain); }
 
-  /// Radial return of a trial deviator of norm `trial` (Pa) with shear modulus `shear`; raises `plastic_strain`. Exact for
-  /// proportional paths over any number of branches. Zero flow where the trial is inside.
+  /// Radial return of a trial deviator of norm `trial` (Pa) with shear modulus `shear`; raises
+  /// `plastic_strain`. Exact for proportional paths over any number of branches. Zero flow where the trial is
+  /// inside.
   PlasticReturn flow(double trial, double shear, double& plastic_strain) const;
 
   /// H |s|^2 of eq. 24, Pa.
@@ -81,7 +83,7 @@ struct CriticalPlane {
 
 /// Searches the in-plane normals (and the hoop normal where `all`) for the largest H / H_cr, eqs. 25-26.
 /// deviator: s, Pa; tangent_drop: H |s|^2, Pa.
-CriticalPlane von_mises_critical_plane(const SymmetricTensor& deviator, const Moduli& moduli, double tangent_drop,
-                                       bool all);
+CriticalPlane von_mises_critical_plane(const SymmetricTensor& deviator, const Moduli& moduli,
+                                       double tangent_drop, bool all);
 
 }  // namespace vitrum

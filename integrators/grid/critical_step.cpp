@@ -7,7 +7,8 @@
 namespace vitrum {
 
 double stability_limit(StepScheme scheme) {
-  // USF and MUSL are leapfrog on the particle system, whose largest frequency is at most 2 sqrt(2) c/h for any particle positions.
+  // USF and MUSL are leapfrog on the particle system, whose largest frequency is at most 2 sqrt(2) c/h for
+  // any particle positions.
   return scheme == StepScheme::usl ? 0.5 : 1.0 / std::numbers::sqrt2;
 }
 

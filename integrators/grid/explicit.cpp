@@ -13,7 +13,8 @@ namespace vitrum {
 using mpm::Gather;
 using mpm::Scatter;
 
-ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> step, std::optional<double> courant)
+ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> step,
+                                       std::optional<double> courant)
     : scheme_(scheme), step_(step), courant_(courant) {}
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
@@ -64,7 +65,8 @@ bool ExplicitIntegrator::advance(System& system, double target, StepObserver& ob
 bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserver& observer) {
   if (state_.segment_steps == 0) {  // otherwise: resumed in the middle of a segment
     state_.segment_start = system.time;
-    state_.segment_steps = static_cast<std::int64_t>(std::max(1.0, std::ceil((target - system.time) / *step_ - 1e-6)));
+    state_.segment_steps =
+        static_cast<std::int64_t>(std::max(1.0, std::ceil((target - system.time) / *step_ - 1e-6)));
     state_.segment_done = 0;
   }
   const double span = target - state_.segment_start;
@@ -89,13 +91,15 @@ bool ExplicitIntegrator::advance_courant(System& system, double target, StepObse
     const double stable = *courant_ * critical.step;
     // Particles that run away shrink the step without end: a hang, unless it is called what it is.
     if (!(critical.travel_speed < 1e6 * critical.wave_speed))
-      throw ComputationError(fmt::format("the step has collapsed to {:.3g} s because a particle of body '{}' moves at {:.3g} m/s, "
-                                         "over a million times its wave speed",
-                                         stable, critical.body, critical.travel_speed));
+      throw ComputationError(fmt::format(
+          "the step has collapsed to {:.3g} s because a particle of body '{}' moves at {:.3g} m/s, "
+          "over a million times its wave speed",
+          stable, critical.body, critical.travel_speed));
     const double left = target - system.time;
     if (!(system.time + stable > system.time))
-      throw ComputationError(fmt::format("the step has collapsed to {:.3g} s, below the rounding of the time {:.6g} s", stable,
-                                         system.time));
+      throw ComputationError(
+          fmt::format("the step has collapsed to {:.3g} s, below the rounding of the time {:.6g} s", stable,
+                      system.time));
     // The last two steps share what is left, so that no step is much shorter than its neighbours.
     const bool last = left <= stable * (1.0 + 1e-9);
     const double duration = last ? left : (left < 2.0 * stable ? 0.5 * left : stable);

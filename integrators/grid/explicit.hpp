@@ -6,8 +6,9 @@
 
 namespace vitrum {
 
-/// The explicit schemes of the material point method: stress first (USF), last (USL), or last with momenta projected anew (MUSL).
-/// Either a fixed step, shortened evenly so that targets are met exactly, or a fraction of the critical step.
+/// The explicit schemes of the material point method: stress first (USF), last (USL), or last with momenta
+/// projected anew (MUSL). Either a fixed step, shortened evenly so that targets are met exactly, or a
+/// fraction of the critical step.
 class ExplicitIntegrator final : public GridIntegrator {
  public:
   /// Exactly one of step (s) and courant is given.

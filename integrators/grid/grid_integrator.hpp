@@ -28,9 +28,9 @@ class StepObserver {
 
 /// What must be kept besides the particles so that a resumed run takes the same steps.
 struct IntegratorState {
-  double segment_start = 0.0;        ///< s, time of the last output or checkpoint target reached
-  std::int64_t segment_steps = 0;    ///< equal steps planned from there to the next target; 0: none planned
-  std::int64_t segment_done = 0;     ///< of these, taken
+  double segment_start = 0.0;      ///< s, time of the last output or checkpoint target reached
+  std::int64_t segment_steps = 0;  ///< equal steps planned from there to the next target; 0: none planned
+  std::int64_t segment_done = 0;   ///< of these, taken
   IntegratorCounters counters;
 };
 

@@ -2,13 +2,13 @@
 
 namespace vitrum {
 
-void ClosedForm::integrate(const Material& material, const ParticleColumns& particles, std::size_t begin, std::size_t end,
-                           double duration, BatchReport& report) {
+void ClosedForm::integrate(const Material& material, const ParticleColumns& particles, std::size_t begin,
+                           std::size_t end, double duration, BatchReport& report) {
   material.respond(particles, begin, end, duration, report);
 }
 
-void ClosedForm::integrate(const Material& material, PointState& state, const SymmetricTensor& strain_increment,
-                           double duration, PointReport& report) {
+void ClosedForm::integrate(const Material& material, PointState& state,
+                           const SymmetricTensor& strain_increment, double duration, PointReport& report) {
   material.respond(state, strain_increment, duration, report);
 }
 

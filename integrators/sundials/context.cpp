@@ -10,6 +10,8 @@ Context::Context() {
   context_.reset(context);
 }
 
-void Context::Free::operator()(SUNContext context) const { SUNContext_Free(&context); }
+void Context::Free::operator()(SUNContext context) const {
+  SUNContext_Free(&context);
+}
 
 }  // namespace vitrum::sundials

@@ -15,9 +15,11 @@ double stored_energy(const System& system) {
     const std::vector<double>& crack_density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
     for (std::size_t i = 0; i < p.size; ++i) {
       PointState s;
-      s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i], p.elastic_strain[3][i]};
+      s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i],
+                          p.elastic_strain[3][i]};
       if (!crack_density.empty()) s.crack_density = crack_density[i];
-      sum += p.mass[i] * specific_volume * stored_energy_of_volume(body.material->secant_moduli(s), s.elastic_strain);
+      sum += p.mass[i] * specific_volume *
+             stored_energy_of_volume(body.material->secant_moduli(s), s.elastic_strain);
     }
   }
   return sum;
@@ -46,15 +48,16 @@ double EnergyLedger::growth() const {
   const double available = totals_.initial + std::max(totals_.external, 0.0);
   // A particle squeezed beyond nothing (tr e < -1.5) stores negative energy, which must not hide growth.
   const double present = totals_.kinetic + std::abs(totals_.elastic);
-  // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with nothing.
+  // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with
+  // nothing.
   return available > 1e-280 ? present / available : (std::isfinite(present) ? 1.0 : present);
 }
 
 EnergyTotals scaled(const EnergyTotals& t, double factor) {
   EnergyTotals s = t;
-  for (double EnergyTotals::*member : {&EnergyTotals::initial, &EnergyTotals::kinetic, &EnergyTotals::elastic,
-                                       &EnergyTotals::plastic, &EnergyTotals::damage, &EnergyTotals::fracture,
-                                       &EnergyTotals::snap_back, &EnergyTotals::external})
+  for (double EnergyTotals::*member :
+       {&EnergyTotals::initial, &EnergyTotals::kinetic, &EnergyTotals::elastic, &EnergyTotals::plastic,
+        &EnergyTotals::damage, &EnergyTotals::fracture, &EnergyTotals::snap_back, &EnergyTotals::external})
     s.*member *= factor;
   return s;
 }

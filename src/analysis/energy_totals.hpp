@@ -2,18 +2,18 @@
 
 namespace vitrum {
 
-/// The energy account of a run, joules (per radian in axisymmetric scenes, per metre in plane strain; outputs multiply by 2 pi in
-/// axisymmetric scenes so that files hold joules of the whole body).
+/// The energy account of a run, joules (per radian in axisymmetric scenes, per metre in plane strain; outputs
+/// multiply by 2 pi in axisymmetric scenes so that files hold joules of the whole body).
 struct EnergyTotals {
-  double initial = 0.0;    ///< kinetic + elastic at the start
+  double initial = 0.0;  ///< kinetic + elastic at the start
   double kinetic = 0.0;
   double elastic = 0.0;
-  double plastic = 0.0;    ///< dissipated so far
-  double damage = 0.0;     ///< dissipated so far
-  double fracture = 0.0;   ///< dissipated so far, snap-back releases included
-  double snap_back = 0.0;  ///< the part of fracture that instantaneous releases dissipated beyond eq. 13
-  double external = 0.0;   ///< work of gravity and prescribed velocities so far
-  double max_growth = 1.0; ///< largest (kinetic + elastic) / initial seen; 1 where initial = 0
+  double plastic = 0.0;     ///< dissipated so far
+  double damage = 0.0;      ///< dissipated so far
+  double fracture = 0.0;    ///< dissipated so far, snap-back releases included
+  double snap_back = 0.0;   ///< the part of fracture that instantaneous releases dissipated beyond eq. 13
+  double external = 0.0;    ///< work of gravity and prescribed velocities so far
+  double max_growth = 1.0;  ///< largest (kinetic + elastic) / initial seen; 1 where initial = 0
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {

@@ -35,7 +35,8 @@ FailureMeasures measure(const Body& body) {
   FailureMeasures m;
   const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
   const Particles& p = body.particles;
-  const auto &length = column(body, Variable::effective_length), &decohesion = column(body, Variable::decohesion);
+  const auto &length = column(body, Variable::effective_length),
+             &decohesion = column(body, Variable::decohesion);
   const auto &opening_n = column(body, Variable::opening_n), &opening_t = column(body, Variable::opening_t);
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
@@ -47,14 +48,16 @@ FailureMeasures measure(const Body& body) {
   }
   if (!column(body, Variable::crack_density).empty())
     for (std::size_t i = 0; i < p.size; ++i)
-      if (damage_of(body, i) > damage_front_threshold) raise(m.damage_front_radius, std::abs(p.position[0][i]));
+      if (damage_of(body, i) > damage_front_threshold)
+        raise(m.damage_front_radius, std::abs(p.position[0][i]));
   return m;
 }
 
 /// Enters one body's measures into those of all.
 void merge(FailureMeasures& all, const FailureMeasures& one) {
   for (std::optional<FirstEvent> FailureMeasures::*first :
-       {&FailureMeasures::first_damage, &FailureMeasures::first_localisation, &FailureMeasures::first_separation})
+       {&FailureMeasures::first_damage, &FailureMeasures::first_localisation,
+        &FailureMeasures::first_separation})
     if (one.*first && (!(all.*first) || (one.*first)->time < (all.*first)->time)) all.*first = one.*first;
   all.localised += one.localised;
   all.separated += one.separated;
@@ -75,9 +78,11 @@ FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.s
     Extent e{{infinite, infinite}, {-infinite, -infinite}};
     for (std::size_t k = 0; k < 2; ++k)
       for (const double x : body.particles.position[k])
-        e.min[k] = std::min(e.min[k], x - body.particle_half_size), e.max[k] = std::max(e.max[k], x + body.particle_half_size);
+        e.min[k] = std::min(e.min[k], x - body.particle_half_size),
+        e.max[k] = std::max(e.max[k], x + body.particle_half_size);
     extents_.push_back(e);
-    // The projectile is the fastest body; the target is the first body that can separate and that is not the projectile.
+    // The projectile is the fastest body; the target is the first body that can separate and that is not the
+    // projectile.
     const std::array<double, 2> v = mean_velocity(body);
     const double speed = std::hypot(v[0], v[1]);
     if (speed > fastest) {
@@ -101,14 +106,16 @@ void FailureAnalysis::observe(const System& system, double step) {
     const double time = system.time - step * (1.0 - e.event.fraction);
     if (*first && (*first)->time <= time) continue;
     const Particles& p = system.bodies[e.body].particles;
-    *first = FirstEvent{time, p.position[0][e.particle], p.position[1][e.particle], system.bodies[e.body].name};
+    *first =
+        FirstEvent{time, p.position[0][e.particle], p.position[1][e.particle], system.bodies[e.body].name};
   }
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
     const std::vector<double>& density = column(body, Variable::crack_density);
     for (std::size_t i = 0; i < density.size() && !memory_[n].damage; ++i)
       if (density[i] > 0.0 && damage_of(body, i) > damage_threshold)
-        memory_[n].damage = FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
+        memory_[n].damage =
+            FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
   }
 }
 
@@ -133,9 +140,10 @@ FailureReport FailureAnalysis::report(const System& system, bool with_fragments)
   return r;
 }
 
-/// A tenth of the projectile has passed the target's original far face by a cell (not just a splinter of it), and the target's
-/// largest piece no longer reaches into the column that the projectile came along.
-std::optional<bool> FailureAnalysis::perforated(const System& system, const std::vector<std::size_t>& main_piece) const {
+/// A tenth of the projectile has passed the target's original far face by a cell (not just a splinter of it),
+/// and the target's largest piece no longer reaches into the column that the projectile came along.
+std::optional<bool> FailureAnalysis::perforated(const System& system,
+                                                const std::vector<std::size_t>& main_piece) const {
   if (!projectile_ || !target_) return std::nullopt;
   const std::size_t along = direction_, across = 1 - direction_;
   const Extent &target = extents_[*target_], &extent = extents_[*projectile_];

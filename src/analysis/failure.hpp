@@ -33,8 +33,8 @@ class FailureAnalysis {
   };
   std::vector<Extent> extents_;
   std::optional<std::size_t> projectile_, target_;
-  std::size_t direction_ = 1;  ///< component along which the projectile moves
-  double sense_ = -1.0;        ///< and its sign
+  std::size_t direction_ = 1;   ///< component along which the projectile moves
+  double sense_ = -1.0;         ///< and its sign
   std::vector<Memory> memory_;  ///< by body
 };
 

@@ -12,7 +12,9 @@ namespace {
 /// Union-find with path halving.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit DisjointSets(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t root(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -54,7 +56,8 @@ std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_ind
         const auto bin = bins.find(key(a + da, b + db));
         if (bin == bins.end()) continue;
         for (const std::size_t j : bin->second)
-          if (j < i && std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
+          if (j < i &&
+              std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
             sets.join(i, j);
       }
   }
@@ -99,7 +102,8 @@ std::vector<Fragment> fragments(const System& system, const std::vector<Connecte
     f.mass *= whole;
     result.push_back(f);
   }
-  std::stable_sort(result.begin(), result.end(), [](const Fragment& a, const Fragment& b) { return a.mass > b.mass; });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Fragment& a, const Fragment& b) { return a.mass > b.mass; });
   return result;
 }
 

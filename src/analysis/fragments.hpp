@@ -12,8 +12,9 @@ struct ConnectedPiece {
   std::vector<std::size_t> particles;
 };
 
-/// Connected components of the unseparated particles of every body whose material can separate, joining particles of a body
-/// within 1.5 cells; by falling number of particles. Separated particles belong to no piece: they are where the cracks run.
+/// Connected components of the unseparated particles of every body whose material can separate, joining
+/// particles of a body within 1.5 cells; by falling number of particles. Separated particles belong to no
+/// piece: they are where the cracks run.
 std::vector<ConnectedPiece> connected_pieces(const System& system);
 
 /// Mass, centre and velocity of the pieces, by falling mass.

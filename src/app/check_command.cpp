@@ -40,7 +40,8 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system) {
                          {"wave_speed", body.material->wave_speed()}};
   }
   const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
-  const double step = scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
+  const double step =
+      scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
   return {{"title", scene.title},
           {"particles", system.particle_count()},
           {"memory_bytes", bytes_of(system)},
@@ -57,24 +58,30 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system) {
 std::vector<std::string> warnings(const Scene& scene, const System& system) {
   std::vector<std::string> list;
   const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
-  const double step = scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
+  const double step =
+      scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
   if (step > critical.step)
-    list.push_back(fmt::format("integrator.step: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
-                               "m/s, fastest particle {:.4g} m/s); energy will grow",
-                               step, step / critical.step, critical.step, critical.body, critical.wave_speed,
-                               critical.travel_speed));
+    list.push_back(fmt::format(
+        "integrator.step: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
+        "m/s, fastest particle {:.4g} m/s); energy will grow",
+        step, step / critical.step, critical.step, critical.body, critical.wave_speed,
+        critical.travel_speed));
   if (scene.integrator.scheme == ExplicitScheme::usl)
-    list.push_back("integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; \"usf\" and "
-                   "\"musl\" have");
+    list.push_back(
+        "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
+        "\"usf\" and "
+        "\"musl\" have");
   for (const MaterialParameters& m : scene.materials) {
     if (!m.decohesion || !m.von_mises) continue;
     // A plane on which the traction falls faster than the cell behind it can unload releases at once.
     const Moduli moduli = elastic_moduli(m.elastic);
     const double needed = m.von_mises->peak * scene.cell / moduli.p_wave();
     if (m.decohesion->opening < needed && m.decohesion->viscosity == 0.0)
-      list.push_back(fmt::format("material.{}.decohesion.opening: {:.3g} m is below {:.3g} m, where decohesion snaps back on cells of "
-                                 "{:g} m: it will be instantaneous",
-                                 m.name, m.decohesion->opening, needed, scene.cell));
+      list.push_back(
+          fmt::format("material.{}.decohesion.opening: {:.3g} m is below {:.3g} m, where decohesion snaps "
+                      "back on cells of "
+                      "{:g} m: it will be instantaneous",
+                      m.name, m.decohesion->opening, needed, scene.cell));
   }
   return list;
 }
@@ -95,11 +102,13 @@ int check_scene(const CheckOptions& options) {
   fmt::print("# {} is valid\n", options.scene);
   for (const auto& [name, body] : facts["bodies"].items())
     fmt::print("# body '{}': {} particles, {:.6g} {}, material '{}', wave speed {:.5g} m/s\n", name,
-               body["particles"].get<std::size_t>(), body["mass"].get<double>(), system.axisymmetric ? "kg" : "kg/m",
-               body["material"].get<std::string>(), body["wave_speed"].get<double>());
+               body["particles"].get<std::size_t>(), body["mass"].get<double>(),
+               system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
+               body["wave_speed"].get<double>());
   fmt::print("# {} particles, {:.3g} MB\n", system.particle_count(), 1e-6 * bytes_of(system));
-  fmt::print("# critical step {:.6g} s (body '{}'); step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["critical_step"].get<double>(),
-             facts["critical_body"].get<std::string>(), facts["step"].get<double>(), facts["step_to_critical"].get<double>(),
+  fmt::print("# critical step {:.6g} s (body '{}'); step {:.6g} s, ratio {:.4g}; {:.0f} steps\n",
+             facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>(),
+             facts["step"].get<double>(), facts["step_to_critical"].get<double>(),
              facts["steps"].get<double>());
   fmt::print("\n{}", resolved_toml(scene));
   return exit_done;

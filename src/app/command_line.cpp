@@ -40,7 +40,8 @@ int guarded(Command&& command) {
   } catch (const FileError& error) {
     return complain(error, exit_file);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory; reduce the number of particles (space.cell, particles_per_cell)\n");
+    fmt::print(stderr,
+               "error: out of memory; reduce the number of particles (space.cell, particles_per_cell)\n");
     return exit_computation;
   } catch (const std::exception& error) {
     return complain(error, exit_computation);
@@ -49,7 +50,9 @@ int guarded(Command&& command) {
 
 /// An argument as a shell takes it.
 std::string quoted(const std::string& argument) {
-  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-+=./:,@%", c) != nullptr; };
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-+=./:,@%", c) != nullptr;
+  };
   if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
   std::string text = "'";
   for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -74,27 +77,33 @@ int command_line(int argc, char** argv) {
   run.command = whole_command(argc, argv);
   const auto add_scene = [](CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
     command.add_option("SCENE", scene, "scene file (TOML)")->required();
-    command.add_option("--set", overrides, "override a key of the scene: a.b.c=VALUE (a TOML value; list items by index)")
+    command
+        .add_option("--set", overrides,
+                    "override a key of the scene: a.b.c=VALUE (a TOML value; list items by index)")
         ->take_all()
         ->allow_extra_args(false);
   };
   CLI::App& run_command = *program.add_subcommand("run", "run a scene");
   add_scene(run_command, run.scene, run.overrides);
   run_command.add_option("--out", run.directory, "folder for the results (default: out/NAME-OF-SCENE)");
-  run_command.add_option("--threads", run.threads, "threads; 0 chooses by the number of particles")->check(CLI::Range(0, 1024));
+  run_command.add_option("--threads", run.threads, "threads; 0 chooses by the number of particles")
+      ->check(CLI::Range(0, 1024));
   run_command.add_flag("--resume", run.resume, "continue from DIR/checkpoint.h5");
   run_command.add_flag("--no-fields", run.no_fields, "write no particle data, only series and summary");
   run_command.add_flag("--quiet", run.quiet, "print only warnings and errors");
 
   CheckOptions check;
-  CLI::App& check_command = *program.add_subcommand("check", "validate a scene and print what follows from it; run nothing");
+  CLI::App& check_command =
+      *program.add_subcommand("check", "validate a scene and print what follows from it; run nothing");
   add_scene(check_command, check.scene, check.overrides);
   check_command.add_flag("--json", check.json, "print JSON");
 
   PointOptions point;
   CLI::App& point_command = *program.add_subcommand("point", "drive one material point along a strain path");
   point_command.add_option("POINT", point.file, "point file (TOML)")->required();
-  point_command.add_option("--set", point.overrides, "override a key: a.b.c=VALUE")->take_all()->allow_extra_args(false);
+  point_command.add_option("--set", point.overrides, "override a key: a.b.c=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   point_command.add_option("--out", point.out, "CSV file (default: standard output)");
 
   std::string result;
@@ -104,12 +113,14 @@ int command_line(int argc, char** argv) {
   info_command.add_flag("--json", json, "print JSON");
 
   std::vector<std::string> compared;
-  CLI::App& compare_command = *program.add_subcommand("compare", "differences between two results: quantities, and fields at common times");
+  CLI::App& compare_command = *program.add_subcommand(
+      "compare", "differences between two results: quantities, and fields at common times");
   compare_command.add_option("RESULTS", compared, "two results")->expected(2);
   compare_command.add_flag("--json", json, "print JSON");
 
   bool result_page = false;
-  CLI::App& reference_command = *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
+  CLI::App& reference_command =
+      *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
   reference_command.add_flag("--result", result_page, "the result reference instead");
 
   try {

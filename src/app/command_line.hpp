@@ -5,7 +5,8 @@ namespace vitrum::app {
 /// Exit statuses of the program.
 inline constexpr int exit_done = 0, exit_input = 2, exit_computation = 3, exit_file = 4;
 
-/// The whole program: parses the arguments, runs the command, turns errors into messages on standard error and an exit status.
+/// The whole program: parses the arguments, runs the command, turns errors into messages on standard error
+/// and an exit status.
 int command_line(int argc, char** argv);
 
 }  // namespace vitrum::app

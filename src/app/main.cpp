@@ -9,7 +9,8 @@
 int main(int argc, char** argv) {
   const int status = vitrum::app::command_line(argc, argv);
   // What was printed reaches its file only now: the disk may be full.
-  if ((std::ferror(stdout) == 0 && std::fflush(stdout) == 0) || status != vitrum::app::exit_done) return status;
+  if ((std::ferror(stdout) == 0 && std::fflush(stdout) == 0) || status != vitrum::app::exit_done)
+    return status;
   fmt::print(stderr, "error: standard output: cannot be written: {}\n", std::strerror(errno));
   return vitrum::app::exit_file;
 }

@@ -19,7 +19,9 @@ namespace {
 class Csv {
  public:
   explicit Csv(const std::string& path)
-      : path_(path), file_(path.empty() ? stdout : std::fopen(path.c_str(), "w"), path.empty() ? [](std::FILE*) { return 0; } : &std::fclose) {
+      : path_(path),
+        file_(path.empty() ? stdout : std::fopen(path.c_str(), "w"),
+              path.empty() ? [](std::FILE*) { return 0; } : &std::fclose) {
     if (!file_) throw FileError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
   }
   void line(const std::string& text) {
@@ -27,7 +29,8 @@ class Csv {
       throw FileError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
   }
   void finish() {
-    if (std::fflush(file_.get()) != 0) throw FileError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+    if (std::fflush(file_.get()) != 0)
+      throw FileError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
   }
 
  private:
@@ -44,8 +47,8 @@ std::string header(const Material& material) {
 }
 
 std::string row(const Material& material, double time, const SymmetricTensor& e, const PointState& s) {
-  std::string text = fmt::format("{},{},{},{},{},{},{},{},{}", time, e.rr, e.zz, e.tt, e.rz, s.stress.rr, s.stress.zz,
-                                 s.stress.tt, s.stress.rz);
+  std::string text = fmt::format("{},{},{},{},{},{},{},{},{}", time, e.rr, e.zz, e.tt, e.rz, s.stress.rr,
+                                 s.stress.zz, s.stress.tt, s.stress.rz);
   if (material.parameters().damage) text += fmt::format(",{}", material.damage(s));
   for (const VariableInfo& v : material.variables())
     if (v.variable != Variable::dissipated)
@@ -69,10 +72,12 @@ int drive_point(const PointOptions& options) {
     PointReport report;
     local.integrate(*material, state, target - strain, to - time, report);
     for (std::size_t k = 0; k < report.event_count; ++k)
-      fmt::print(stderr, "event {} t={}\n", event_name(report.events[k].kind), time + report.events[k].fraction * (to - time));
+      fmt::print(stderr, "event {} t={}\n", event_name(report.events[k].kind),
+                 time + report.events[k].fraction * (to - time));
     if (!std::isfinite(trace(state.stress) + state.stress.rz + state.dissipated))
-      throw ComputationError(fmt::format("t = {} s: the stress is not finite (strain {}, {}, {}, {}); reduce the strain path", to,
-                                         target.rr, target.zz, target.tt, target.rz));
+      throw ComputationError(
+          fmt::format("t = {} s: the stress is not finite (strain {}, {}, {}, {}); reduce the strain path",
+                      to, target.rr, target.zz, target.tt, target.rz));
     strain = target;
     time = to;
   };
@@ -88,7 +93,8 @@ int drive_point(const PointOptions& options) {
     const SymmetricTensor e0 = scene.strain[segment], change = scene.strain[segment + 1] - e0;
     for (int k = 1; k <= scene.samples; ++k) {
       const double f = static_cast<double>(k) / scene.samples;
-      advance(k == scene.samples ? t1 : t0 + f * (t1 - t0), k == scene.samples ? scene.strain[segment + 1] : e0 + f * change);
+      advance(k == scene.samples ? t1 : t0 + f * (t1 - t0),
+              k == scene.samples ? scene.strain[segment + 1] : e0 + f * change);
       csv.line(row(*material, time, strain, state));
     }
   }

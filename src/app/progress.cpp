@@ -9,7 +9,13 @@
 namespace vitrum::app {
 
 Progress::Progress(double start, double end, const char* energy_unit, bool quiet)
-    : start_(start), end_(end), energy_unit_(energy_unit), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), begun_(Clock::now()), last_(begun_) {
+    : start_(start),
+      end_(end),
+      energy_unit_(energy_unit),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      begun_(Clock::now()),
+      last_(begun_) {
   first_time_ = start;
 }
 
@@ -26,16 +32,21 @@ void Progress::step(double time, double step, const IntegratorCounters& c) {
   const char* limit = c.limited_by_accuracy > c.limited_by_stability ? "accuracy"
                       : c.limited_by_stability > 0                   ? "stability"
                                                                      : "fixed step";
-  fmt::print(stderr, "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",
-             std::string(std::min<std::size_t>(filled, 30), '#'), 100.0 * part, 1e6 * time, 1e6 * step, c.steps, c.rejected,
-             limit, left);
+  fmt::print(
+      stderr,
+      "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",
+      std::string(std::min<std::size_t>(filled, 30), '#'), 100.0 * part, 1e6 * time, 1e6 * step, c.steps,
+      c.rejected, limit, left);
   std::fflush(stderr);
 }
 
 void Progress::output(double time, const IntegratorCounters& c, const EnergyTotals& e) {
   if (quiet_ || terminal_) return;
-  fmt::print(stderr, "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n", 1e6 * time,
-             c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_, 100.0 * e.relative_residual());
+  fmt::print(
+      stderr,
+      "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n",
+      1e6 * time, c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_,
+      100.0 * e.relative_residual());
 }
 
 void Progress::finish() {

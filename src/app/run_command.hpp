@@ -10,10 +10,11 @@ struct RunOptions {
   std::string directory;  ///< empty: out/NAME-OF-SCENE
   int threads = 0;        ///< 0: by the number of particles
   bool resume = false, no_fields = false, quiet = false;
-  std::string command;    ///< as typed
+  std::string command;  ///< as typed
 };
 
-/// `vitrum run`: runs a scene and leaves summary.json, result.h5, result.xdmf, energy.csv in the folder; returns the exit status.
+/// `vitrum run`: runs a scene and leaves summary.json, result.h5, result.xdmf, energy.csv in the folder;
+/// returns the exit status.
 int run_scene(const RunOptions& options);
 
 }  // namespace vitrum::app

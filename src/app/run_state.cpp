@@ -7,20 +7,24 @@
 namespace vitrum::app {
 namespace {
 
-/// Walks through everything of a state that is a number, the same way for writing and reading. Counts are far below 2^53.
+/// Walks through everything of a state that is a number, the same way for writing and reading. Counts are far
+/// below 2^53.
 template <class State, class Visit>
 void visit_numbers(State& s, Visit&& visit) {
   auto& e = s.energy;
-  visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.external, e.max_growth);
+  visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.external,
+        e.max_growth);
   auto& i = s.integrator;
   visit("integrator", i.segment_start, i.segment_steps, i.segment_done, i.counters.steps, i.counters.rejected,
-        i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations, i.counters.step_min,
-        i.counters.step_max, i.counters.limited_by_stability, i.counters.limited_by_accuracy, i.counters.limited_by_output);
-  visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.energy_step, s.result_steps, s.evaluations, s.events,
-        s.wall_seconds);
+        i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations,
+        i.counters.step_min, i.counters.step_max, i.counters.limited_by_stability,
+        i.counters.limited_by_accuracy, i.counters.limited_by_output);
+  visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.energy_step, s.result_steps,
+        s.evaluations, s.events, s.wall_seconds);
 }
 
-const std::vector<double>& numbers_of(const output::Checkpoint& c, const std::string& name, std::size_t count) {
+const std::vector<double>& numbers_of(const output::Checkpoint& c, const std::string& name,
+                                      std::size_t count) {
   const auto entry = c.numbers.find(name);
   if (entry == c.numbers.end() || entry->second.size() != count)
     throw FileError(fmt::format("checkpoint: '{}' is missing or does not hold {} numbers", name, count));

@@ -6,7 +6,10 @@
 namespace vitrum::app {
 
 Schedule::Schedule(const Scene& scene)
-    : start_(scene.start), end_(scene.end), every_(scene.output.every), checkpoint_every_(scene.output.checkpoint_every) {}
+    : start_(scene.start),
+      end_(scene.end),
+      every_(scene.output.every),
+      checkpoint_every_(scene.output.checkpoint_every) {}
 
 Schedule::Target Schedule::next(std::int64_t outputs, std::int64_t checkpoints) const {
   // Times closer than this are one: what rounding makes of the same time.
@@ -20,7 +23,8 @@ Schedule::Target Schedule::next(std::int64_t outputs, std::int64_t checkpoints) 
   const double output = planned(every_, outputs), checkpoint = planned(checkpoint_every_, checkpoints);
   const double time = std::min(output, checkpoint);
   const bool writes_output = output <= time + slack;
-  return {writes_output ? output : time, writes_output, checkpoint_every_.has_value() && checkpoint <= time + slack};
+  return {writes_output ? output : time, writes_output,
+          checkpoint_every_.has_value() && checkpoint <= time + slack};
 }
 
 }  // namespace vitrum::app

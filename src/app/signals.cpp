@@ -19,6 +19,8 @@ void catch_signals() {
   std::signal(SIGTERM, remember);
 }
 
-int caught_signal() { return caught; }
+int caught_signal() {
+  return caught;
+}
 
 }  // namespace vitrum::app

@@ -19,14 +19,15 @@
 
 namespace vitrum::app {
 
-Simulation::Simulation(const Scene& scene, System system, const RunOptions& options, std::filesystem::path directory)
+Simulation::Simulation(const Scene& scene, System system, const RunOptions& options,
+                       std::filesystem::path directory)
     : scene_(scene),
       options_(options),
       directory_(std::move(directory)),
       system_(std::move(system)),
       whole_(system_.axisymmetric ? 2.0 * std::numbers::pi : 1.0),
-      integrator_(std::make_unique<ExplicitIntegrator>(step_scheme(scene.integrator.scheme), scene.integrator.step,
-                                                       scene.integrator.courant)),
+      integrator_(std::make_unique<ExplicitIntegrator>(step_scheme(scene.integrator.scheme),
+                                                       scene.integrator.step, scene.integrator.courant)),
       ledger_(system_),
       failure_(system_),
       watchdog_(scene.integrator.max_growth, step_scheme(scene.integrator.scheme)),
@@ -45,11 +46,14 @@ void Simulation::start() {
   for (const char* name : {"summary.json", "checkpoint.h5", "result.xdmf"}) {
     std::error_code error;
     std::filesystem::remove(directory_ / name, error);
-    if (error) throw FileError(fmt::format("{}: cannot be removed: {}", (directory_ / name).string(), error.message()));
+    if (error)
+      throw FileError(
+          fmt::format("{}: cannot be removed: {}", (directory_ / name).string(), error.message()));
   }
   result_ = output::ResultFile::create(
       directory_, {scene_.title, scene_.verbatim, resolved_toml(scene_), provenance_,
-                   options_.no_fields ? output::ParticleConstants{} : output::particle_constants(system_.bodies, scene_.geometry)});
+                   options_.no_fields ? output::ParticleConstants{}
+                                      : output::particle_constants(system_.bodies, scene_.geometry)});
   energy_csv_ = output::EnergyCsv::create(directory_ / "energy.csv");
   write_energy_row();
   ++state_.energy_times;
@@ -59,8 +63,9 @@ void Simulation::start() {
 void Simulation::resume() {
   const output::Checkpoint checkpoint = output::read_checkpoint(directory_ / "checkpoint.h5");
   if (checkpoint.scene_sha256 != provenance_.scene_sha256)
-    throw InputError(fmt::format("{}: found a checkpoint of another scene (or other --set values); expected the one of this scene",
-                                 (directory_ / "checkpoint.h5").string()));
+    throw InputError(fmt::format(
+        "{}: found a checkpoint of another scene (or other --set values); expected the one of this scene",
+        (directory_ / "checkpoint.h5").string()));
   output::restore_bodies(checkpoint, system_.bodies);
   state_ = restored(checkpoint);
   system_.time = checkpoint.time;
@@ -75,7 +80,8 @@ void Simulation::resume() {
     throw InputError(fmt::format("--resume: found a run {} particle data in {}, expected {} --no-fields",
                                  options_.no_fields ? "with" : "without", directory_.string(),
                                  options_.no_fields ? "no" : "also"));
-  energy_csv_ = output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
+  energy_csv_ =
+      output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
 }
 
 int Simulation::run() {
@@ -97,8 +103,9 @@ int Simulation::run() {
     if (const int signal = caught_signal()) {
       write_checkpoint();
       return finish(output::RunStatus::interrupted,
-                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with the same command and --resume, folder {}", signal,
-                                system_.time, directory_.string()),
+                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with the same "
+                                "command and --resume, folder {}",
+                                signal, system_.time, directory_.string()),
                     128 + signal);
     }
   }
@@ -159,11 +166,14 @@ std::vector<output::SeriesValue> Simulation::series() const {
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth},
       {"localised", "1", "localised particles", static_cast<double>(f.localised)},
       {"separated", "1", "separated particles", static_cast<double>(f.separated)},
-      {"localised_radius_max", "m", "largest r (|x|) of a localised particle; NaN: none", f.localised_radius_max.value_or(none)},
-      {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none", f.damage_front_radius.value_or(none)},
+      {"localised_radius_max", "m", "largest r (|x|) of a localised particle; NaN: none",
+       f.localised_radius_max.value_or(none)},
+      {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none",
+       f.damage_front_radius.value_or(none)},
       {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)},
       {"step_size", "s", "last step", last_step_},
-      {"error_estimate", "1", "accumulated local error estimate of the integrator; NaN: explicit schemes make none", none},
+      {"error_estimate", "1",
+       "accumulated local error estimate of the integrator; NaN: explicit schemes make none", none},
   };
 }
 
@@ -177,8 +187,12 @@ void Simulation::write_output() {
 }
 
 void Simulation::write_checkpoint() {
-  output::Checkpoint checkpoint{system_.time, system_.step_index, provenance_.scene_sha256,
-                                output::checkpoint_bodies(system_.bodies), {}, {}};
+  output::Checkpoint checkpoint{system_.time,
+                                system_.step_index,
+                                provenance_.scene_sha256,
+                                output::checkpoint_bodies(system_.bodies),
+                                {},
+                                {}};
   state_.energy = ledger_.totals();
   state_.failure = failure_.memory();
   state_.integrator = integrator_->state();

@@ -16,7 +16,8 @@
 
 namespace vitrum::app {
 
-/// One run of a scene: steps from target to target, books energies, watches stability, writes outputs and checkpoints.
+/// One run of a scene: steps from target to target, books energies, watches stability, writes outputs and
+/// checkpoints.
 class Simulation final : private StepObserver {
  public:
   /// Starts, or resumes from directory/checkpoint.h5. Throws InputError, FileError.

@@ -29,8 +29,8 @@ bool finite_state(const System& system) {
   for (const Body& body : system.bodies)
     for (std::size_t i = 0; i < body.particles.size; ++i) {
       const Particles& p = body.particles;
-      const double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i] + p.stress[0][i] +
-                         p.stress[1][i] + p.stress[2][i] + p.stress[3][i];
+      const double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i] +
+                         p.stress[0][i] + p.stress[1][i] + p.stress[2][i] + p.stress[3][i];
       if (!std::isfinite(sum)) return false;
     }
   return true;
@@ -46,7 +46,8 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
   progress_.finish();
   // What a failed run computed last is a result, as long as it is numbers.
   if (status == output::RunStatus::failed && finite_state(system_)) write_output();
-  if (status != output::RunStatus::interrupted) write_energy_row();  // a resumed run goes on with the rows of its checkpoint
+  if (status != output::RunStatus::interrupted)
+    write_energy_row();  // a resumed run goes on with the rows of its checkpoint
   result_->close();
   const output::RunSummary s = summary(status, message);
   output::write_summary(directory_ / "summary.json", s);
@@ -54,11 +55,15 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
   constexpr double tolerated = 0.05;
   const double residual = s.energy.relative_residual();
   if (status == output::RunStatus::complete && (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0)))
-    fmt::print(stderr, "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n", 100.0 * residual);
+    fmt::print(stderr,
+               "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
+               100.0 * residual);
   else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
-    fmt::print(stderr, "warning: the numerics {} {:.1f} % of the energy: the step does not resolve this run (try a smaller "
-                       "integrator.step or integrator.courant = 0.1)\n",
-               residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual));
+    fmt::print(
+        stderr,
+        "warning: the numerics {} {:.1f} % of the energy: the step does not resolve this run (try a smaller "
+        "integrator.step or integrator.courant = 0.1)\n",
+        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual));
   if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
   if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
   return exit_status;
@@ -90,21 +95,27 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
 void Simulation::print_summary(const output::RunSummary& s) const {
   const EnergyTotals& e = s.energy;
   const char* unit = system_.axisymmetric ? "J" : "J/m";
-  const double rate = s.wall_seconds > 0.0 ? static_cast<double>(s.constitutive.evaluations) / s.wall_seconds : 0.0;
-  fmt::print("{}: {} particles, {} steps to t = {:.4g} us in {:.2f} s ({:.3g} particle-steps/s, {} thread{})\n", scene_.title,
-             s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate, s.threads, s.threads == 1 ? "" : "s");
-  fmt::print("energy ({}): initial {:.5g}, kinetic {:.5g}, elastic {:.5g}, plastic {:.5g}, damage {:.5g}, fracture {:.5g}, external "
-             "{:.5g}\n",
-             unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
-  fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit, 100.0 * e.relative_residual(),
-             e.max_growth);
+  const double rate =
+      s.wall_seconds > 0.0 ? static_cast<double>(s.constitutive.evaluations) / s.wall_seconds : 0.0;
+  fmt::print(
+      "{}: {} particles, {} steps to t = {:.4g} us in {:.2f} s ({:.3g} particle-steps/s, {} thread{})\n",
+      scene_.title, s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate, s.threads,
+      s.threads == 1 ? "" : "s");
+  fmt::print(
+      "energy ({}): initial {:.5g}, kinetic {:.5g}, elastic {:.5g}, plastic {:.5g}, damage {:.5g}, fracture "
+      "{:.5g}, external "
+      "{:.5g}\n",
+      unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
+  fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
+             100.0 * e.relative_residual(), e.max_growth);
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)
-      fmt::print("'{}': first damage {}, first localisation {}, first separation {}\n", body.name, place(body.failure.first_damage),
-                 place(body.failure.first_localisation), place(body.failure.first_separation));
-  fmt::print("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated, f.fragments.size(),
-             f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
+      fmt::print("'{}': first damage {}, first localisation {}, first separation {}\n", body.name,
+                 place(body.failure.first_damage), place(body.failure.first_localisation),
+                 place(body.failure.first_separation));
+  fmt::print("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated,
+             f.fragments.size(), f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
   fmt::print("results in {}\n", directory_.string());
 }
 

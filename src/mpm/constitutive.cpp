@@ -29,7 +29,8 @@ void update_stress(System& system, double duration) {
   system.record.elastic = 0.0;
   system.record.dissipated = {};
   system.record.events.clear();
-  static thread_local std::vector<BatchReport> of_chunk;  // of the calling thread; workers write to its elements
+  static thread_local std::vector<BatchReport>
+      of_chunk;  // of the calling thread; workers write to its elements
   std::vector<BatchReport>& reports = of_chunk;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     Body& body = system.bodies[n];
@@ -40,13 +41,14 @@ void update_stress(System& system, double duration) {
       reports[k].elastic = 0.0;
       reports[k].dissipated = {};
       reports[k].events.clear();
-      system.local->integrate(*body.material, columns, k * chunk_size, std::min(size, (k + 1) * chunk_size), duration,
-                              reports[k]);
+      system.local->integrate(*body.material, columns, k * chunk_size, std::min(size, (k + 1) * chunk_size),
+                              duration, reports[k]);
     });
     for (std::size_t k = 0; k < chunks; ++k) {
       system.record.elastic += reports[k].elastic;
       system.record.dissipated += reports[k].dissipated;
-      for (const ParticleEvent& e : reports[k].events) system.record.events.push_back({n, e.particle, e.event});
+      for (const ParticleEvent& e : reports[k].events)
+        system.record.events.push_back({n, e.particle, e.event});
     }
     system.constitutive_evaluations += static_cast<std::int64_t>(size);
   }

@@ -4,7 +4,8 @@
 namespace vitrum::mpm {
 namespace {
 
-// Slots of a local tile: the velocity for the strain, the velocity that moves particles, the velocity's change.
+// Slots of a local tile: the velocity for the strain, the velocity that moves particles, the velocity's
+// change.
 constexpr std::size_t strain_slot = 0, motion_slot = 2, change_slot = 4;
 // Slots of the grid's own tile in which MUSL sums the second momenta.
 constexpr std::size_t momentum_slot = 1;
@@ -17,7 +18,8 @@ struct TileSums {
 
 template <Gather what>
 struct Plan {
-  static constexpr bool strain = what == Gather::strain || what == Gather::strain_and_position || what == Gather::all_from_new;
+  static constexpr bool strain =
+      what == Gather::strain || what == Gather::strain_and_position || what == Gather::all_from_new;
   static constexpr bool strain_from_new = what == Gather::all_from_new;
   static constexpr bool velocity = what == Gather::velocity_and_position || what == Gather::all_from_new ||
                                    what == Gather::velocity_and_rescatter;
@@ -36,8 +38,8 @@ struct TileReader {
   }
 };
 
-/// A particle that crosses the axis changes places with its image, whose odd components have the other sign. (t = n turned by +90
-/// degrees is odd as well.)
+/// A particle that crosses the axis changes places with its image, whose odd components have the other sign.
+/// (t = n turned by +90 degrees is odd as well.)
 void reflect_at_axis(Particles& p, std::size_t i) {
   const auto flip = [i](std::vector<double>& column) {
     if (!column.empty()) column[i] = -column[i];
@@ -56,9 +58,9 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const TileReader reader{block, axisymmetric && kind != ShapeKind::linear && block.column == 0};
   alignas(64) double local[6][tile_nodes];
-  double *s0 = local[strain_slot], *s1 = local[strain_slot + 1];        // strain
-  double *m0 = local[motion_slot], *m1 = local[motion_slot + 1];        // new velocity: motion
-  double *d0 = local[change_slot], *d1 = local[change_slot + 1];        // new minus old
+  double *s0 = local[strain_slot], *s1 = local[strain_slot + 1];  // strain
+  double *m0 = local[motion_slot], *m1 = local[motion_slot + 1];  // new velocity: motion
+  double *d0 = local[change_slot], *d1 = local[change_slot + 1];  // new minus old
   if constexpr (P::velocity || P::position) {
     reader.load(grid.field(Field::new_velocity_0), m0, -1.0);
     reader.load(grid.field(Field::new_velocity_1), m1, 1.0);
@@ -107,7 +109,8 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
         const double hoop = axisymmetric ? duration * vr / hoop_radius(r, grid.cell()) : 0.0;
         const double spin = 0.5 * scale * (zr - rz);
         // The integral of R^T D R over the increment, R turning from 0 to `spin`.
-        const SymmetricTensor e = rotate({scale * rr, scale * zz, hoop, 0.5 * scale * (rz + zr)}, rotation_by(-0.5 * spin));
+        const SymmetricTensor e =
+            rotate({scale * rr, scale * zz, hoop, 0.5 * scale * (rz + zr)}, rotation_by(-0.5 * spin));
         p.strain_increment[0][i] = e.rr, p.strain_increment[1][i] = e.zz;
         p.strain_increment[2][i] = e.tt, p.strain_increment[3][i] = e.rz;
         p.spin_increment[i] = spin;
@@ -131,7 +134,8 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
         if (axisymmetric && x0 < 0.0) x0 = -x0, reflect_at_axis(p, i);
         p.position[0][i] = x0, p.position[1][i] = x1;
         const long long c0 = cell_of(x0 * per_cell), c1 = cell_of(x1 * per_cell);
-        sums.stale |= c0 < block.cells[0] || c0 > block.cells[1] || c1 < block.cells[2] || c1 > block.cells[3];
+        sums.stale |=
+            c0 < block.cells[0] || c0 > block.cells[1] || c1 < block.cells[2] || c1 > block.cells[3];
       }
     }
   }
@@ -168,11 +172,16 @@ void gather_all(System& system, double duration) {
 
 void gather(System& system, Gather what, double duration) {
   switch (what) {
-    case Gather::strain: return gather_all<Gather::strain>(system, duration);
-    case Gather::velocity_and_position: return gather_all<Gather::velocity_and_position>(system, duration);
-    case Gather::all_from_new: return gather_all<Gather::all_from_new>(system, duration);
-    case Gather::velocity_and_rescatter: return gather_all<Gather::velocity_and_rescatter>(system, duration);
-    case Gather::strain_and_position: return gather_all<Gather::strain_and_position>(system, duration);
+    case Gather::strain:
+      return gather_all<Gather::strain>(system, duration);
+    case Gather::velocity_and_position:
+      return gather_all<Gather::velocity_and_position>(system, duration);
+    case Gather::all_from_new:
+      return gather_all<Gather::all_from_new>(system, duration);
+    case Gather::velocity_and_rescatter:
+      return gather_all<Gather::velocity_and_rescatter>(system, duration);
+    case Gather::strain_and_position:
+      return gather_all<Gather::strain_and_position>(system, duration);
   }
 }
 

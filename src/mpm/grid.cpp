@@ -13,20 +13,26 @@ namespace vitrum::mpm {
 namespace {
 
 std::uint64_t key_of(std::int32_t column, std::int32_t row) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) | static_cast<std::uint32_t>(column);
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
+         static_cast<std::uint32_t>(column);
 }
 
-bool before(const Block& a, const Block& b) { return a.row != b.row ? a.row < b.row : a.column < b.column; }
+bool before(const Block& a, const Block& b) {
+  return a.row != b.row ? a.row < b.row : a.column < b.column;
+}
 
 /// floor(a / 8)
-std::int64_t block_of(std::int64_t cell) { return cell >> 3; }
+std::int64_t block_of(std::int64_t cell) {
+  return cell >> 3;
+}
 
 std::int64_t checked_cell(double x, const Body& body, std::size_t particle) {
   constexpr double limit = 2147483000.0;  // cells; block coordinates are 32-bit
   if (!(std::abs(x) < limit))
-    throw ComputationError(fmt::format("body '{}', particle {}: position is {} cells from the origin; it must be finite and "
-                                       "within {:.3g} cells (an unstable step scatters particles: reduce the step)",
-                                       body.name, body.particles.identity[particle], x, limit));
+    throw ComputationError(
+        fmt::format("body '{}', particle {}: position is {} cells from the origin; it must be finite and "
+                    "within {:.3g} cells (an unstable step scatters particles: reduce the step)",
+                    body.name, body.particles.identity[particle], x, limit));
   return cell_of(x);
 }
 
@@ -43,14 +49,16 @@ void Grid::rebuild(const std::vector<Body>& bodies) {
   tile_data_.resize(tile_block_.size() * tile_stride);
 }
 
-/// Fills blocks_ (those with particles, by rising row and column), the lists of particles, and each block's range of cells.
+/// Fills blocks_ (those with particles, by rising row and column), the lists of particles, and each block's
+/// range of cells.
 void Grid::sort_particles(const std::vector<Body>& bodies) {
   std::size_t total = 0;
   for (const Body& body : bodies) total += body.particles.size;
   home_.resize(total);
   index_.resize(total);
 
-  constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min(), highest = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min(),
+                         highest = std::numeric_limits<std::int64_t>::max();
   const double per_cell = 1.0 / cell_;
   std::size_t k = 0;
   std::int32_t last = -1;
@@ -58,10 +66,12 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
     for (std::size_t p = 0; p < body.particles.size; ++p, ++k) {
       const std::int64_t i = checked_cell(body.particles.position[0][p] * per_cell, body, p);
       const std::int64_t j = checked_cell(body.particles.position[1][p] * per_cell, body, p);
-      const auto column = static_cast<std::int32_t>(block_of(i)), row = static_cast<std::int32_t>(block_of(j));
+      const auto column = static_cast<std::int32_t>(block_of(i)),
+                 row = static_cast<std::int32_t>(block_of(j));
       if (last < 0 || blocks_[static_cast<std::size_t>(last)].column != column ||
           blocks_[static_cast<std::size_t>(last)].row != row) {
-        const auto [entry, added] = find_.try_emplace(key_of(column, row), static_cast<std::int32_t>(blocks_.size()));
+        const auto [entry, added] =
+            find_.try_emplace(key_of(column, row), static_cast<std::int32_t>(blocks_.size()));
         if (added) {
           blocks_.emplace_back();
           blocks_.back().column = column, blocks_.back().row = row;
@@ -93,8 +103,8 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
     // Particles may move by up to a cell beyond where they are before the lists must be made anew.
     Block& b = sorted[n];
     const std::int64_t i0 = std::int64_t{b.column} * block_side, j0 = std::int64_t{b.row} * block_side;
-    b.cells = {std::max(b.cells[0] - 1, i0), std::min(b.cells[1] + 1, i0 + block_side - 1), std::max(b.cells[2] - 1, j0),
-               std::min(b.cells[3] + 1, j0 + block_side - 1)};
+    b.cells = {std::max(b.cells[0] - 1, i0), std::min(b.cells[1] + 1, i0 + block_side - 1),
+               std::max(b.cells[2] - 1, j0), std::min(b.cells[3] + 1, j0 + block_side - 1)};
   }
   blocks_ = std::move(sorted);
 
@@ -121,7 +131,8 @@ void Grid::add_neighbours() {
   for (std::size_t n = 0; n < with_particles; ++n) {
     const Block b = blocks_[n];
     const std::int64_t i0 = std::int64_t{b.column} * block_side, j0 = std::int64_t{b.row} * block_side;
-    const std::int64_t last = block_side - (wide ? 2 : 1);  // from this cell on, the next block's nodes are touched
+    const std::int64_t last =
+        block_side - (wide ? 2 : 1);  // from this cell on, the next block's nodes are touched
     const int left = wide && b.cells[0] == i0 && !(axisymmetric_ && b.column == 0) ? -1 : 0;
     const int right = b.cells[1] - i0 >= last ? 1 : 0;
     const int down = wide && b.cells[2] == j0 ? -1 : 0, up = b.cells[3] - j0 >= last ? 1 : 0;
@@ -143,7 +154,8 @@ void Grid::add_neighbours() {
     for (int dj = -1; dj <= 1; ++dj)
       for (int di = -1; di <= 1; ++di) {
         const auto entry = find_.find(key_of(b.column + di, b.row + dj));
-        b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)] = entry == find_.end() ? -1 : entry->second;
+        b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)] =
+            entry == find_.end() ? -1 : entry->second;
       }
 }
 
@@ -161,10 +173,14 @@ void Grid::mark_constraints() {
     };
     for (std::size_t k = 0; k < boundaries_.size(); ++k) {
       const Boundary& wall = boundaries_[k];
-      if (wall.min[0] > r0 + side || wall.max[0] < r0 - slack || wall.min[1] > z0 + side || wall.max[1] < z0 - slack) continue;
+      if (wall.min[0] > r0 + side || wall.max[0] < r0 - slack || wall.min[1] > z0 + side ||
+          wall.max[1] < z0 - slack)
+        continue;
       for (int node = 0; node < block_nodes; ++node) {
         const double r = r0 + (node % block_side) * cell_, z = z0 + (node / block_side) * cell_;
-        if (r < wall.min[0] - slack || r > wall.max[0] + slack || z < wall.min[1] - slack || z > wall.max[1] + slack) continue;
+        if (r < wall.min[0] - slack || r > wall.max[0] + slack || z < wall.min[1] - slack ||
+            z > wall.max[1] + slack)
+          continue;
         for (std::size_t component = 0; component < 2; ++component)
           if (wall.fixed[component]) hold(component, node, static_cast<std::int16_t>(k));
       }

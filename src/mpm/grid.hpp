@@ -12,7 +12,8 @@ namespace vitrum::mpm {
 /// Nodes and cells come in square blocks of this side.
 inline constexpr int block_side = 8;
 inline constexpr int block_nodes = block_side * block_side;
-/// A block's tile: the nodes that particles of its cells can touch, columns and rows -1 .. 9 (one spare column for alignment).
+/// A block's tile: the nodes that particles of its cells can touch, columns and rows -1 .. 9 (one spare
+/// column for alignment).
 inline constexpr int tile_columns = 12, tile_rows = 11, tile_nodes = tile_columns * tile_rows;
 
 /// Per-node quantities of a step.
@@ -22,7 +23,7 @@ enum class Field : std::size_t {
   momentum_1,
   force_0,
   force_1,
-  velocity_0,      ///< before the forces act, boundary values imposed
+  velocity_0,  ///< before the forces act, boundary values imposed
   velocity_1,
   new_velocity_0,  ///< after
   new_velocity_1,
@@ -31,11 +32,13 @@ inline constexpr std::size_t field_count = 9;
 
 /// A square of block_side x block_side nodes (and the cells to their upper right).
 struct Block {
-  std::int32_t column = 0, row = 0;              ///< block coordinates: node (8 column, 8 row) is its first
-  std::array<std::int32_t, 9> neighbours{};      ///< index of the block at (di, dj) in 3 (dj + 1) + di + 1; -1: absent
-  std::int32_t tile = -1;                        ///< index of its tile; -1: holds no particle
-  bool constrained = false;                      ///< some node is held
-  std::array<std::int64_t, 4> cells{};           ///< first and last cell column, first and last row its particles may be in
+  std::int32_t column = 0, row = 0;  ///< block coordinates: node (8 column, 8 row) is its first
+  std::array<std::int32_t, 9>
+      neighbours{};          ///< index of the block at (di, dj) in 3 (dj + 1) + di + 1; -1: absent
+  std::int32_t tile = -1;    ///< index of its tile; -1: holds no particle
+  bool constrained = false;  ///< some node is held
+  std::array<std::int64_t, 4>
+      cells{};  ///< first and last cell column, first and last row its particles may be in
 };
 
 /// A component of a node's velocity that is not free.
@@ -45,20 +48,21 @@ struct Constraint {
 
 /// A box of nodes with held or prescribed velocity components.
 struct Boundary {
-  std::array<double, 2> min, max;      ///< m; a node within rounding of the box belongs to it
+  std::array<double, 2> min, max;  ///< m; a node within rounding of the box belongs to it
   std::array<bool, 2> fixed;
-  std::array<double, 2> velocity;      ///< m/s
+  std::array<double, 2> velocity;  ///< m/s
 };
 
-/// Unbounded sparse grid: only blocks that particles touch exist. Also knows which particles are in which block.
+/// Unbounded sparse grid: only blocks that particles touch exist. Also knows which particles are in which
+/// block.
 class Grid {
  public:
   Grid() = default;
   Grid(double cell, ShapeKind shape, bool axisymmetric, std::vector<Boundary> boundaries)
       : cell_(cell), shape_(shape), axisymmetric_(axisymmetric), boundaries_(std::move(boundaries)) {}
 
-  /// Sorts the particles into blocks anew. Depends on positions only, not on history. Throws ComputationError for positions that
-  /// are not finite or too far away (2^31 cells).
+  /// Sorts the particles into blocks anew. Depends on positions only, not on history. Throws ComputationError
+  /// for positions that are not finite or too far away (2^31 cells).
   void rebuild(const std::vector<Body>& bodies);
 
   /// Particles of `body` in the block with tile `t`.
@@ -78,7 +82,9 @@ class Grid {
   double* tile_data(std::size_t tile) { return tile_data_.data() + tile * tile_stride; }
   static constexpr std::size_t tile_stride = 5 * tile_nodes;
 
-  std::int16_t constraint(std::size_t component, std::size_t node) const { return constraints_[component][node]; }
+  std::int16_t constraint(std::size_t component, std::size_t node) const {
+    return constraints_[component][node];
+  }
   const std::vector<Boundary>& boundaries() const { return boundaries_; }
   double cell() const { return cell_; }
   bool axisymmetric() const { return axisymmetric_; }
@@ -96,9 +102,9 @@ class Grid {
 
   std::size_t body_count_ = 0;
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> tile_block_;        // tile -> block
-  std::vector<std::uint32_t> offset_, index_;   // particles by (tile, body)
-  std::vector<std::int32_t> home_;              // scratch: block of each particle
+  std::vector<std::int32_t> tile_block_;       // tile -> block
+  std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
+  std::vector<std::int32_t> home_;             // scratch: block of each particle
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;

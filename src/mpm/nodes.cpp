@@ -27,7 +27,8 @@ constexpr double empty = std::numeric_limits<double>::min();
 
 void project_velocities(System& system) {
   Grid& grid = system.grid;
-  const double *mass = grid.field(Field::mass), *p0 = grid.field(Field::momentum_0), *p1 = grid.field(Field::momentum_1);
+  const double *mass = grid.field(Field::mass), *p0 = grid.field(Field::momentum_0),
+               *p1 = grid.field(Field::momentum_1);
   double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
   system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
     for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
@@ -57,10 +58,11 @@ void apply_forces(System& system, double duration) {
     if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
   });
 
-  // External work, in the order of the blocks: gravity on every node, and the reaction -(f + m g) that keeps a node at its
-  // prescribed velocity. Held (zero-velocity) nodes and the axis do no work.
+  // External work, in the order of the blocks: gravity on every node, and the reaction -(f + m g) that keeps
+  // a node at its prescribed velocity. Held (zero-velocity) nodes and the axis do no work.
   bool moving = false;
-  for (const Boundary& wall : grid.boundaries()) moving = moving || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
+  for (const Boundary& wall : grid.boundaries())
+    moving = moving || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
   if (!has_gravity && !moving) return;
   double work = 0.0;
   for (std::size_t block = 0; block < grid.blocks().size(); ++block)

@@ -12,24 +12,25 @@ namespace vitrum {
 /// The particles of one body, structure of arrays; every non-empty array has `size` entries.
 struct Particles {
   std::size_t size = 0;
-  std::array<std::vector<double>, 2> position;         ///< m, (r, z) or (x, y)
-  std::array<std::vector<double>, 2> velocity;         ///< m/s
-  std::vector<double> mass;                            ///< kg per radian (axisymmetric) or per metre (plane strain); constant
-  std::array<std::vector<double>, 4> elastic_strain;   ///< (rr, zz, tt, rz)
-  std::array<std::vector<double>, 4> stress;           ///< Pa, (rr, zz, tt, rz)
-  std::array<std::vector<double>, variable_count> variables;  ///< by Variable; empty where the material has no such variable
-  std::vector<std::uint32_t> identity;                 ///< number of the particle at the start; outputs are in this order
+  std::array<std::vector<double>, 2> position;  ///< m, (r, z) or (x, y)
+  std::array<std::vector<double>, 2> velocity;  ///< m/s
+  std::vector<double> mass;  ///< kg per radian (axisymmetric) or per metre (plane strain); constant
+  std::array<std::vector<double>, 4> elastic_strain;  ///< (rr, zz, tt, rz)
+  std::array<std::vector<double>, 4> stress;          ///< Pa, (rr, zz, tt, rz)
+  std::array<std::vector<double>, variable_count>
+      variables;                        ///< by Variable; empty where the material has no such variable
+  std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
 
   // Scratch of one step, never stored: strain increment in the frame that turns with the particle, and turn.
   std::array<std::vector<double>, 4> strain_increment;
-  std::vector<double> spin_increment;                  ///< rad, counter-clockwise from r to z
+  std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
 };
 
 struct Body {
   std::string name;
   std::shared_ptr<const Material> material;
   Particles particles;
-  double particle_half_size = 0.0;                     ///< m, half the side of a particle's initial square (GIMP)
+  double particle_half_size = 0.0;  ///< m, half the side of a particle's initial square (GIMP)
 };
 
 }  // namespace vitrum

@@ -13,7 +13,8 @@ void scatter_tile(System& system, std::size_t tile) {
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   double* data = grid.tile_data(tile);
-  double *mass = data + mass_slot * tile_nodes, *p0 = data + momentum_slot * tile_nodes, *p1 = p0 + tile_nodes;
+  double *mass = data + mass_slot * tile_nodes, *p0 = data + momentum_slot * tile_nodes,
+         *p1 = p0 + tile_nodes;
   double *f0 = data + force_slot * tile_nodes, *f1 = f0 + tile_nodes;
   if constexpr (with_momentum) std::fill(mass, mass + 3 * tile_nodes, 0.0);
   if constexpr (with_force) std::fill(f0, f0 + 2 * tile_nodes, 0.0);
@@ -35,7 +36,8 @@ void scatter_tile(System& system, std::size_t tile) {
       double rr = 0.0, zz = 0.0, rz = 0.0, hoop = 0.0;
       if constexpr (with_force) {
         const double volume =
-            m * specific_volume * (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+            m * specific_volume *
+            (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
         rr = -volume * p.stress[0][i] * per_cell, zz = -volume * p.stress[1][i] * per_cell;
         rz = -volume * p.stress[3][i] * per_cell;
         if constexpr (axisymmetric) hoop = -volume * p.stress[2][i] / hoop_radius(r, grid.cell());
@@ -97,9 +99,12 @@ void refresh_grid(System& system) {
 
 void scatter(System& system, Scatter what) {
   switch (what) {
-    case Scatter::momentum: return scatter_all<true, false>(system);
-    case Scatter::force: return scatter_all<false, true>(system);
-    case Scatter::momentum_and_force: return scatter_all<true, true>(system);
+    case Scatter::momentum:
+      return scatter_all<true, false>(system);
+    case Scatter::force:
+      return scatter_all<false, true>(system);
+    case Scatter::momentum_and_force:
+      return scatter_all<true, true>(system);
   }
 }
 

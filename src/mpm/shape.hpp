@@ -20,7 +20,8 @@ struct Weights1 {
   std::array<double, count> slope;  ///< h dN/dx
 };
 
-/// The nodes a particle touches and N, h dN/dx there. x: position in cells; half: half the particle's side in cells (GIMP).
+/// The nodes a particle touches and N, h dN/dx there. x: position in cells; half: half the particle's side in
+/// cells (GIMP).
 template <ShapeKind kind>
 struct Shape1;
 
@@ -28,8 +29,9 @@ struct Shape1;
 template <>
 struct Shape1<ShapeKind::linear> {
   static constexpr int count = 2;
-  /// A particle exactly on a node is taken to be a rounding inside the cell: with N = 0 but a slope of 1, the cell's other node may
-  /// be empty, and its velocity would be read as 0 (N / m has a limit there, 0 / 0 has none).
+  /// A particle exactly on a node is taken to be a rounding inside the cell: with N = 0 but a slope of 1, the
+  /// cell's other node may be empty, and its velocity would be read as 0 (N / m has a limit there, 0 / 0 has
+  /// none).
   static constexpr double nearest = 1e-15;
   static Weights1<2> at(double x, double /*half*/) {
     const long long cell = cell_of(x);

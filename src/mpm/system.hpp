@@ -17,30 +17,31 @@ struct BodyEvent {
   Event event;
 };
 
-/// What the last step did, summed over all bodies in a fixed order. Joules per radian (axisymmetric) or per metre.
+/// What the last step did, summed over all bodies in a fixed order. Joules per radian (axisymmetric) or per
+/// metre.
 struct StepRecord {
-  double kinetic = 0.0;            ///< at the end of the step
-  double elastic = 0.0;            ///< stored, at the end of the step
-  Dissipation dissipated;          ///< in the step
-  double external_work = 0.0;      ///< of gravity and prescribed velocities in the step
+  double kinetic = 0.0;        ///< at the end of the step
+  double elastic = 0.0;        ///< stored, at the end of the step
+  Dissipation dissipated;      ///< in the step
+  double external_work = 0.0;  ///< of gravity and prescribed velocities in the step
   std::vector<BodyEvent> events;
 };
 
 /// All that moves: bodies, their grid, and how their particles' local equations are integrated.
 struct System {
   bool axisymmetric = true;
-  double cell = 0.0;                                   ///< m
+  double cell = 0.0;  ///< m
   std::vector<Body> bodies;
-  std::array<double, 2> gravity{0.0, 0.0};             ///< m/s^2
+  std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
   std::unique_ptr<mpm::ThreadTeam> team;
 
-  double time = 0.0;                                   ///< s
+  double time = 0.0;  ///< s
   std::int64_t step_index = 0;
   StepRecord record;
   std::int64_t constitutive_evaluations = 0, constitutive_events = 0;
-  bool grid_is_stale = true;                           ///< a particle has left the cells its block was made for
+  bool grid_is_stale = true;  ///< a particle has left the cells its block was made for
 
   std::size_t particle_count() const {
     std::size_t n = 0;

@@ -6,8 +6,8 @@
 
 namespace vitrum::mpm {
 
-/// A fixed set of threads that run one loop at a time. Chunks are handed out dynamically; callers make results independent of
-/// who computes which chunk. With one thread no synchronisation happens at all.
+/// A fixed set of threads that run one loop at a time. Chunks are handed out dynamically; callers make
+/// results independent of who computes which chunk. With one thread no synchronisation happens at all.
 class ThreadTeam {
  public:
   explicit ThreadTeam(int threads);
@@ -24,7 +24,10 @@ class ThreadTeam {
       for (std::size_t i = 0; i < chunks; ++i) body(i);
       return;
     }
-    run(chunks, [](void* context, std::size_t i) { (*static_cast<std::remove_reference_t<Body>*>(context))(i); }, &body);
+    run(
+        chunks,
+        [](void* context, std::size_t i) { (*static_cast<std::remove_reference_t<Body>*>(context))(i); },
+        &body);
   }
 
  private:

@@ -3,12 +3,12 @@
 
 #include "mpm/system.hpp"
 
-/// A tile is the patch of nodes around one block, contiguous in memory: particles of the block read and write it without
-/// looking up nodes. Node (i, j) of the block is tile entry (j + 1) tile_columns + i + 1.
+/// A tile is the patch of nodes around one block, contiguous in memory: particles of the block read and write
+/// it without looking up nodes. Node (i, j) of the block is tile entry (j + 1) tile_columns + i + 1.
 namespace vitrum::mpm {
 
-/// Where a block at offset d (-1, 0, 1) from another one overlaps the other's tile: `count` nodes from `node` in the block, from
-/// `entry` in the tile. Compile-time, so that rows are copied without a call.
+/// Where a block at offset d (-1, 0, 1) from another one overlaps the other's tile: `count` nodes from `node`
+/// in the block, from `entry` in the tile. Compile-time, so that rows are copied without a call.
 template <int d>
 struct Overlap {
   static constexpr int node = d < 0 ? block_side - 1 : 0;
@@ -42,7 +42,8 @@ inline void load_tile(const Block& b, const double* field, double* tile) {
     }
     const double* from = field + static_cast<std::size_t>(n) * block_nodes + J::node * block_side + I::node;
     for (int row = 0; row < J::count; ++row)
-      for (int column = 0; column < I::count; ++column) to[row * tile_columns + column] = from[row * block_side + column];
+      for (int column = 0; column < I::count; ++column)
+        to[row * tile_columns + column] = from[row * block_side + column];
   });
 }
 
@@ -55,16 +56,19 @@ inline void reduce_tiles(Grid& grid, const Block& b, std::size_t block, std::siz
     using J = Overlap<-dj>;
     const std::int32_t n = neighbour(b, di, dj);
     if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) return;
-    const double* from = grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile)) +
-                         slot * tile_nodes + J::entry * tile_columns + I::entry;
+    const double* from =
+        grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile)) +
+        slot * tile_nodes + J::entry * tile_columns + I::entry;
     double* to = nodes + J::node * block_side + I::node;
     for (int row = 0; row < J::count; ++row)
-      for (int column = 0; column < I::count; ++column) to[row * block_side + column] += from[row * tile_columns + column];
+      for (int column = 0; column < I::count; ++column)
+        to[row * block_side + column] += from[row * tile_columns + column];
   });
 }
 
-/// The axis is a plane of symmetry: the image of a particle at -r touches node +1 as the particle touches node -1, with the
-/// opposite radial component. Folds column -1 of a summed tile onto column +1. parity: +1 or -1.
+/// The axis is a plane of symmetry: the image of a particle at -r touches node +1 as the particle touches
+/// node -1, with the opposite radial component. Folds column -1 of a summed tile onto column +1. parity: +1
+/// or -1.
 inline void fold_axis(double* tile, double parity) {
   for (int row = 0; row < tile_rows; ++row) {
     double* r = tile + row * tile_columns;
@@ -88,16 +92,21 @@ inline std::size_t tile_entry(const Block& b, const W& r, const W& z) {
 }
 
 /// Radius used in the hoop terms: never 0 (there N v_r / r has its limit as r -> 0).
-inline double hoop_radius(double r, double cell) { return std::max(r, 1e-9 * cell); }
+inline double hoop_radius(double r, double cell) {
+  return std::max(r, 1e-9 * cell);
+}
 
 /// Calls f(template arguments) for the shape functions and geometry of a grid.
 template <class F>
 void dispatch(const Grid& grid, F&& f) {
   const auto with_shape = [&]<bool axisymmetric>() {
     switch (grid.shape()) {
-      case ShapeKind::linear: return f.template operator()<ShapeKind::linear, axisymmetric>();
-      case ShapeKind::gimp: return f.template operator()<ShapeKind::gimp, axisymmetric>();
-      case ShapeKind::bspline2: return f.template operator()<ShapeKind::bspline2, axisymmetric>();
+      case ShapeKind::linear:
+        return f.template operator()<ShapeKind::linear, axisymmetric>();
+      case ShapeKind::gimp:
+        return f.template operator()<ShapeKind::gimp, axisymmetric>();
+      case ShapeKind::bspline2:
+        return f.template operator()<ShapeKind::bspline2, axisymmetric>();
     }
   };
   if (grid.axisymmetric())

@@ -1,36 +1,39 @@
 #pragma once
 #include "mpm/system.hpp"
 
-/// The operators between particles and grid, shared by every integrator of the momentum equations. Results do not depend on the
-/// number of threads: each block sums its own particles in order of storage, and blocks are combined in geometric order.
+/// The operators between particles and grid, shared by every integrator of the momentum equations. Results do
+/// not depend on the number of threads: each block sums its own particles in order of storage, and blocks are
+/// combined in geometric order.
 namespace vitrum::mpm {
 
 /// Sorts the particles into blocks anew when some particle has left the cells its block was made for.
 void refresh_grid(System& system);
 
 enum class Scatter { momentum, force, momentum_and_force };
-/// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i (N per radian or per
-/// metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r + s_zz N,z), V = V0 (1 + tr e)).
+/// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
+/// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
+/// + s_zz N,z), V = V0 (1 + tr e)).
 void scatter(System& system, Scatter what);
 
 /// Nodal velocities from mass and momentum; held components get their prescribed values.
 void project_velocities(System& system);
-/// New nodal velocities after `duration` seconds under the internal forces and gravity; held components keep their prescribed
-/// values. Adds the work of gravity and of prescribed velocities to system.record.external_work.
+/// New nodal velocities after `duration` seconds under the internal forces and gravity; held components keep
+/// their prescribed values. Adds the work of gravity and of prescribed velocities to
+/// system.record.external_work.
 void apply_forces(System& system, double duration);
 
 /// What a pass from nodes to particles does.
 enum class Gather {
-  strain,                      ///< strain and spin increments from `velocity`
-  velocity_and_position,       ///< v += N (new - old), x += dt N new
-  all_from_new,                ///< the two together, strain from `new_velocity` (USL)
-  velocity_and_rescatter,      ///< v += N (new - old), and the new momenta back to the nodes (MUSL)
-  strain_and_position,         ///< strain from `velocity`, x += dt N `new_velocity` (MUSL)
+  strain,                  ///< strain and spin increments from `velocity`
+  velocity_and_position,   ///< v += N (new - old), x += dt N new
+  all_from_new,            ///< the two together, strain from `new_velocity` (USL)
+  velocity_and_rescatter,  ///< v += N (new - old), and the new momenta back to the nodes (MUSL)
+  strain_and_position,     ///< strain from `velocity`, x += dt N `new_velocity` (MUSL)
 };
 void gather(System& system, Gather what, double duration);
 
-/// Takes every particle's stress and state over the strain increments gathered before; fills the energies and events of
-/// system.record.
+/// Takes every particle's stress and state over the strain increments gathered before; fills the energies and
+/// events of system.record.
 void update_stress(System& system, double duration);
 
 /// Kinetic energy of the particles now, J (per radian or per metre).

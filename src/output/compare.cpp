@@ -15,7 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// All numbers and nulls below `node`, by dotted name, in the order of the file.
-void flatten(const Json& node, const std::string& name, std::vector<std::pair<std::string, std::optional<double>>>& found) {
+void flatten(const Json& node, const std::string& name,
+             std::vector<std::pair<std::string, std::optional<double>>>& found) {
   if (node.is_object() || node.is_array()) {
     std::size_t index = 0;
     for (const auto& [key, value] : node.items())
@@ -27,7 +28,8 @@ void flatten(const Json& node, const std::string& name, std::vector<std::pair<st
   }
 }
 
-std::vector<std::pair<std::string, std::optional<double>>> quantities_of(const std::filesystem::path& directory) {
+std::vector<std::pair<std::string, std::optional<double>>> quantities_of(
+    const std::filesystem::path& directory) {
   std::vector<std::pair<std::string, std::optional<double>>> found;
   std::ifstream file(directory / "summary.json");
   if (!file) return found;
@@ -35,7 +37,8 @@ std::vector<std::pair<std::string, std::optional<double>>> quantities_of(const s
   if (!summary.is_object()) return found;
   for (const char* block : {"time", "energy", "failure", "bodies"}) {
     if (!summary.contains(block)) continue;
-    if (summary[block].is_object() && summary[block].contains("fragments")) summary[block]["fragments"].erase("list");
+    if (summary[block].is_object() && summary[block].contains("fragments"))
+      summary[block]["fragments"].erase("list");
     flatten(summary[block], block, found);
   }
   return found;
@@ -84,7 +87,8 @@ Comparison compare_results(const std::filesystem::path& path_a, const std::files
   const auto first = quantities_of(a.path().parent_path()), second = quantities_of(b.path().parent_path());
   const std::map<std::string, std::optional<double>> in_b(second.begin(), second.end());
   for (const auto& [name, value] : first)
-    if (const auto other = in_b.find(name); other != in_b.end()) result.quantities.push_back({name, value, other->second});
+    if (const auto other = in_b.find(name); other != in_b.end())
+      result.quantities.push_back({name, value, other->second});
 
   if (a.bodies() != b.bodies() || a.body_of_particle() != b.body_of_particle()) {
     result.remark = "the results have different bodies or numbers of particles: fields are not compared";
@@ -97,7 +101,8 @@ Comparison compare_results(const std::filesystem::path& path_a, const std::files
     if (j < b.steps().size() && b.steps()[j].time <= a.steps()[i].time + slack)
       result.times.push_back(compare_outputs(a, i, b, j));
   }
-  if (result.times.empty()) result.remark = "the results have no output time in common: fields are not compared";
+  if (result.times.empty())
+    result.remark = "the results have no output time in common: fields are not compared";
   return result;
 }
 

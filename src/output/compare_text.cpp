@@ -52,15 +52,17 @@ std::string comparison_text(const Comparison& c, bool json) {
   for (const QuantityDifference& q : c.quantities) {
     const std::optional<double> d = change(q);
     const std::string relative = d && *q.a != 0.0 ? fmt::format("{:.2e}", *d / std::abs(*q.a)) : "";
-    text += fmt::format("{:<44} {:>14} {:>14} {:>14} {:>10}\n", q.name, shown(q.a), shown(q.b), shown(d), relative);
+    text += fmt::format("{:<44} {:>14} {:>14} {:>14} {:>10}\n", q.name, shown(q.a), shown(q.b), shown(d),
+                        relative);
   }
-  text += fmt::format("outputs: {} in A, {} in B, {} at common times\n", c.outputs_a, c.outputs_b, c.times.size());
+  text += fmt::format("outputs: {} in A, {} in B, {} at common times\n", c.outputs_a, c.outputs_b,
+                      c.times.size());
   if (!c.remark.empty()) text += c.remark + "\n";
   for (const TimeDifference& t : c.times) {
     text += fmt::format("t = {:.6e} s\n", t.time);
     for (const FieldDifference& f : t.fields) {
-      text += fmt::format("  {:<20} largest {:.3e} {} (particle {}), relative {:.2e}", f.name, f.largest, f.unit, f.particle,
-                          f.relative);
+      text += fmt::format("  {:<20} largest {:.3e} {} (particle {}), relative {:.2e}", f.name, f.largest,
+                          f.unit, f.particle, f.relative);
       if (f.only_one > 0) text += fmt::format(", {} values in one result only", f.only_one);
       text += '\n';
     }

@@ -120,8 +120,8 @@ Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments)
                 {"centre", pair(body.centre)},
                 {"kinetic", number(body.kinetic)}};
   add_measures(block, body.failure);
-  block["fragments"] =
-      std::count_if(fragments.begin(), fragments.end(), [&](const Fragment& f) { return f.body == body.name; });
+  block["fragments"] = std::count_if(fragments.begin(), fragments.end(),
+                                     [&](const Fragment& f) { return f.body == body.name; });
   return block;
 }
 
@@ -129,7 +129,8 @@ Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments)
 
 nlohmann::ordered_json to_json(const RunSummary& summary) {
   Json bodies = Json::object(), provenance = Json::object();
-  for (const BodySummary& body : summary.bodies) bodies[body.name] = body_block(body, summary.failure.fragments);
+  for (const BodySummary& body : summary.bodies)
+    bodies[body.name] = body_block(body, summary.failure.fragments);
   for (const ProvenanceEntry& entry : provenance_entries)
     provenance[std::string(entry.name)] = summary.provenance.*entry.member;
   return {{"status", status_name(summary.status)},

@@ -19,10 +19,10 @@ enum class RunStatus { complete, failed, interrupted };
 struct BodySummary {
   std::string name;
   std::size_t particles = 0;
-  double mass = 0.0;                         ///< kg
-  std::array<double, 2> momentum{};          ///< kg m/s, summed over particles
-  std::array<double, 2> centre{};            ///< m, of mass
-  double kinetic = 0.0;                      ///< J
+  double mass = 0.0;                 ///< kg
+  std::array<double, 2> momentum{};  ///< kg m/s, summed over particles
+  std::array<double, 2> centre{};    ///< m, of mass
+  double kinetic = 0.0;              ///< J
   FailureMeasures failure;
 };
 

@@ -116,7 +116,9 @@ KeyTable constitutive() {
 
 KeyTable output() {
   static const std::vector<KeyInfo> keys{
-      number_key("every", positive, "s", "time between outputs, which fall on its multiples, the start and the end; absent: only the last state"),
+      number_key("every", positive, "s",
+                 "time between outputs, which fall on its multiples, the start and the end; absent: only the "
+                 "last state"),
       fields_key(),
       number_key("checkpoint_every", positive, "s", "time between checkpoints; absent: none but on a signal"),
   };

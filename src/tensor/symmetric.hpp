@@ -3,8 +3,9 @@
 
 namespace vitrum {
 
-/// Symmetric second-order tensor with one symmetry plane: components (rr, zz, tt, rz) in the axisymmetric frame (r, z, theta),
-/// or (xx, yy, zz, xy) in plane strain. `rz` is the tensor component (half the engineering shear).
+/// Symmetric second-order tensor with one symmetry plane: components (rr, zz, tt, rz) in the axisymmetric
+/// frame (r, z, theta), or (xx, yy, zz, xy) in plane strain. `rz` is the tensor component (half the
+/// engineering shear).
 struct SymmetricTensor {
   double rr = 0.0, zz = 0.0, tt = 0.0, rz = 0.0;
 
@@ -26,8 +27,12 @@ struct SymmetricTensor {
   friend constexpr bool operator==(const SymmetricTensor&, const SymmetricTensor&) = default;
 };
 
-constexpr SymmetricTensor identity() { return {1.0, 1.0, 1.0, 0.0}; }
-constexpr double trace(const SymmetricTensor& a) { return a.rr + a.zz + a.tt; }
+constexpr SymmetricTensor identity() {
+  return {1.0, 1.0, 1.0, 0.0};
+}
+constexpr double trace(const SymmetricTensor& a) {
+  return a.rr + a.zz + a.tt;
+}
 constexpr SymmetricTensor deviator(const SymmetricTensor& a) {
   const double mean = trace(a) / 3.0;
   return {a.rr - mean, a.zz - mean, a.tt - mean, a.rz};
@@ -36,7 +41,9 @@ constexpr SymmetricTensor deviator(const SymmetricTensor& a) {
 constexpr double contract(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2.0 * a.rz * b.rz;
 }
-inline double norm(const SymmetricTensor& a) { return std::sqrt(contract(a, a)); }
+inline double norm(const SymmetricTensor& a) {
+  return std::sqrt(contract(a, a));
+}
 
 /// Rotation in the r-z plane by an angle, counter-clockwise from r to z.
 struct Rotation {

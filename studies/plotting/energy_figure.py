@@ -47,6 +47,9 @@ def energy_history(run):
         axes.set_ylabel("energy (J)" if run.axisymmetric else "energy (J/m)")
     lines.set_xlim(time[0], time[-1])
     lines.set_xlabel("time (µs)")
-    what = f"Energy account; residual at the end {100.0 * account['residual'][-1] / scale:+.2f} %".replace("-", "\u2212")
+    # As in summary.json: relative to what was put in, however much energy a run has made since.
+    reference = max(account["kinetic"][0] + account["elastic"][0], abs(account["external"][-1]))
+    percent = 100.0 * account["residual"][-1] / reference if reference > 0.0 else 0.0
+    what = f"Energy account; residual at the end {percent:+.3g} %".replace("-", "\u2212")
     figure.suptitle(f"{run.title}\n{what}" if run.title else what, fontsize=10)
     return figure

@@ -19,10 +19,12 @@ struct Watch final : StepObserver {
 
 }  // namespace
 
-// The onset of failure is the part of the reference case that does not depend on rounding: later fragments do. The figures are this
-// program's own (MUSL, 0.05 us); a change of a law or a scheme that moves them must say why.
+// The onset of failure is the part of the reference case that does not depend on rounding: later fragments
+// do. The figures are this program's own (MUSL, 0.05 us); a change of a law or a scheme that moves them must
+// say why.
 TEST_CASE("The reference case fails first where it did", "[regression]") {
-  const Scene scene = read_scene(VITRUM_SOURCE_DIR "/studies/paper/reference.toml", {"integrator.scheme=\"musl\"", "integrator.step=5e-8"});
+  const Scene scene = read_scene(VITRUM_SOURCE_DIR "/studies/paper/reference.toml",
+                                 {"integrator.scheme=\"musl\"", "integrator.step=5e-8"});
   System system = build_system(scene, 1);
   FailureAnalysis failure(system);
   Watch watch(failure);

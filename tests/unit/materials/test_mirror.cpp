@@ -9,18 +9,22 @@ using namespace vitrum::test;
 
 namespace {
 
-SymmetricTensor mirrored(const SymmetricTensor& a) { return {a.rr, a.zz, a.tt, -a.rz}; }
+SymmetricTensor mirrored(const SymmetricTensor& a) {
+  return {a.rr, a.zz, a.tt, -a.rz};
+}
 
 }  // namespace
 
-// A mirror image of a history is a possible history: the choice between conjugate shear planes must not prefer a side.
+// A mirror image of a history is a possible history: the choice between conjugate shear planes must not
+// prefer a side.
 TEST_CASE("the mirror image of a path has the mirror image of its crack", "[material][decohesion]") {
   const std::shared_ptr<const Material> steel = make_material(fracturing_steel(), 1.0e-3);
   int localised = 0;
   for (int i = 0; i < 500; ++i) {
     // Directions all around, none with the principal axes along r and z, where both planes face z alike.
     const double angle = 0.1 + 0.0123 * i, out = 0.03 * std::sin(0.7 * i);
-    const SymmetricTensor strain{0.04 * std::cos(angle), -0.04 * std::cos(angle), out, 0.04 * std::sin(angle) + 0.011};
+    const SymmetricTensor strain{0.04 * std::cos(angle), -0.04 * std::cos(angle), out,
+                                 0.04 * std::sin(angle) + 0.011};
     PointState one, other;
     PointReport a, b;
     steel->respond(one, strain, 1.0e-6, a);
