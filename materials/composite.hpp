@@ -42,8 +42,8 @@ class Composite final : public Material {
   struct Leg {
     PointState start;
     SymmetricTensor strain;  ///< whole increment of the leg
-    bool tension;
-    double coefficient;  ///< C(R) of eq. 7 on this leg
+    bool tension = false;
+    double coefficient = 0.0;  ///< C(R) of eq. 7 on this leg
   };
   struct Followed {
     PointState state;

@@ -177,7 +177,8 @@ void Grid::mark_constraints() {
           wall.max[1] < z0 - slack)
         continue;
       for (int node = 0; node < block_nodes; ++node) {
-        const double r = r0 + (node % block_side) * cell_, z = z0 + (node / block_side) * cell_;
+        const int i = node % block_side, j = node / block_side;
+        const double r = r0 + i * cell_, z = z0 + j * cell_;
         if (r < wall.min[0] - slack || r > wall.max[0] + slack || z < wall.min[1] - slack ||
             z > wall.max[1] + slack)
           continue;

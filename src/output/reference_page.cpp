@@ -98,7 +98,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 | `failure.max_opening`, `.max_opening_radius` | m |
 | `failure.perforated` | whether the projectile has passed |
 | `failure.fragments` | `count`, `largest_mass`, `total_mass`, `list` of the 100 largest {`body`, `particles`, `mass`, `centre`, `velocity`} |
-| `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, `localised`, `separated` |
+| `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, the measures of `failure` for this body alone (`first_*`, `localised`, ... `max_opening_radius`), and `fragments`, their number |
 | `provenance` | as in `result.h5` |
 
 ## `checkpoint.h5`

@@ -11,7 +11,7 @@ namespace {
 
 std::filesystem::path locate(const std::filesystem::path& path) {
   std::error_code failure;
-  const std::filesystem::path file = std::filesystem::is_directory(path, failure) ? result_path(path) : path;
+  std::filesystem::path file = std::filesystem::is_directory(path, failure) ? result_path(path) : path;
   const bool readable = std::filesystem::is_regular_file(file, failure);
   if (failure) throw FileError(fmt::format("{}: cannot read: {}", file.string(), failure.message()));
   if (!readable) throw FileError(fmt::format("{}: is not a file", file.string()));
