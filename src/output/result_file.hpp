@@ -16,8 +16,8 @@ struct StoredField {
 
 /// One output of a result file.
 struct StoredStep {
-  std::string name;  ///< of the group below /steps: "00000", "00001", ...
-  double time = 0.0;       ///< s
+  std::string name;   ///< of the group below /steps: "00000", "00001", ...
+  double time = 0.0;  ///< s
   std::vector<StoredField> fields;
 };
 
