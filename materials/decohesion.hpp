@@ -85,8 +85,8 @@ class DecohesionLaw {
   Advance advance(double lambda0, double onset_strength, const PlaneTraction& trial, double length,
                   double duration) const;
 
-  /// Rate of lambda per unit rate of the trial effective traction, over u0: the denominator of eqs. 12-13 in
-  /// the form [m.Q.m/L_e - U0 q lambda^(q-1)] / u0^2, Pa/m; <= 0: snap-back.
+  /// Denominator of the rate of lambda (eqs. 12-13), [m.Q.m/L_e - U0 q lambda^(q-1)] / u0^2, Pa/m; <= 0:
+  /// snap-back.
   double hardening_denominator(double lambda, double onset_strength, const PlaneTraction& traction,
                                double length) const;
 

@@ -21,7 +21,7 @@ class EnergyLedger {
   void book(const System& system);
 
   const EnergyTotals& totals() const { return totals_; }
-  /// (kinetic + elastic) / (initial + positive external work); 1 while there is no energy to compare with.
+  /// (kinetic + |elastic|) / (initial + positive external work); 1 while there is no energy to compare with.
   double growth() const;
 
  private:

@@ -10,8 +10,8 @@ namespace vitrum::app {
 /// Stops a run that has become unstable.
 class Watchdog {
  public:
-  /// max_growth: bound on (kinetic + elastic) / (initial + external work); infinite: only values that are not
-  /// finite stop.
+  /// max_growth: bound on (kinetic + |elastic|) / (initial + positive external work), EnergyLedger::growth;
+  /// infinite: only values that are not finite stop.
   Watchdog(double max_growth, StepScheme scheme) : max_growth_(max_growth), scheme_(scheme) {}
 
   /// A message that names time, particle, step and remedy when the last step, `step` seconds long, was one
