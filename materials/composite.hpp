@@ -28,7 +28,15 @@ class Composite final : public Material {
   void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,
                PointReport& report) const override;
   void respond(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
-               BatchReport& report) const override;
+               PointIntegrator* integrator, BatchReport& report) const override;
+  EvolutionMode enter(PointState& state, const StrainPath& path, PointReport& report) const override;
+  void leave(EvolutionMode& mode, Root root, PointState& state, const StrainPath& path, double fraction,
+             PointReport& report) const override;
+  EvolutionRates rates(const EvolutionMode& mode, const PointState& state,
+                       const StrainPath& path) const override;
+  void events(const EvolutionMode& mode, const PointState& state, const StrainPath& path,
+              EventFunctions& functions) const override;
+  void settle(const EvolutionMode& mode, PointState& state, const StrainPath& path) const override;
   Moduli secant_moduli(const PointState& s) const override {
     return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
   }
@@ -89,7 +97,7 @@ class Composite final : public Material {
   double yield_function(const PointState& s, const Moduli& moduli) const;
   double localisation_criterion(const Leg& leg, const PointState& s) const;
   bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
-  void start_decohesion(const Leg& leg, PointState& s) const;
+  void start_decohesion(bool tension, bool damage_grows, PointState& s) const;
   void record_events(const Leg& leg, const PointState& end, double end_fraction, double done,
                      PointReport& report) const;
   double damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const;
@@ -100,6 +108,7 @@ class Composite final : public Material {
   double advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration, bool at_once,
                           double& separated_at, Dissipation& dissipation) const;
   double advance_separated(PointState& s, const SymmetricTensor& strain) const;
+  void snap_back(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void relax_crack(PointState& s) const;
   void flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const;
@@ -109,6 +118,55 @@ class Composite final : public Material {
     const SymmetricTensor stress = moduli.stress(strain);
     return {plane.normal_part(stress), plane.tangential_part(stress), moduli.p_wave(), moduli.shear};
   }
+
+  // composite_rates.hpp
+  /// A softening plane: what drives it, and per unit of lambda: strain of the jump, stiffness and fall of
+  /// strength (Pa).
+  struct Softening {
+    PlaneDrive drive;
+    SymmetricTensor jump;
+    double stiffness, slope, strength;
+  };
+  static constexpr bool surface_acts(bool tension);
+  SymmetricTensor yield_gradient(const PointState& s, const Moduli& moduli) const;
+  SymmetricTensor flow_direction(const PointState& s) const;
+  SymmetricTensor give_way(const EvolutionMode& mode, const PointState& s, const Moduli& moduli,
+                           const SymmetricTensor& strain, double& gap, double& slip) const;
+  Softening softening(const EvolutionMode& mode, const PointState& s, const Moduli& moduli) const;
+  double flow_localisation(const PointState& s, const Moduli& moduli, double modulus) const;
+  double damage_localisation(const PointState& s) const;
+  /// Change of the effective traction that a strain brings, Pa.
+  static double pull(const DecohesionPlane& plane, const PlaneDrive& drive, const Moduli& moduli,
+                     const SymmetricTensor& strain) {
+    const SymmetricTensor stress = moduli.stress(strain);
+    return drive.normal * plane.normal_part(stress) + drive.tangential * plane.tangential_part(stress);
+  }
+  double yield_scale() const {
+    if constexpr (yielding == Yielding::von_mises) return von_mises_.radius(0.0);
+    if constexpr (yielding == Yielding::drucker_prager)
+      return std::max(parameters_.drucker_prager->yield, 1e-9 * elastic_.shear);
+    return elastic_.shear;
+  }
+
+  // composite_modes.hpp
+  void choose(EvolutionMode& mode, std::optional<Root> root, PointState& s, const StrainPath& path,
+              double fraction, PointReport& report) const;
+  void choose_damage(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction,
+                     PointReport& report) const;
+  void fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
+                         PointReport& report) const;
+  bool on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const;
+  bool at_strength(const EvolutionMode& mode, const PointState& s) const;
+  void set_branch(EvolutionMode& mode, const PointState& s) const;
+  void choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
+                   bool may_open) const;
+  void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
+  bool falls_through(const EvolutionMode& mode, const PointState& s) const;
+  bool localises(const EvolutionMode& mode, const PointState& s) const;
+  void localise(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  void separate_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  bool shear_carries_strength(const EvolutionMode& mode, const PointState& s) const;
+  void release_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
 
   MaterialParameters parameters_;
   std::vector<VariableInfo> variables_;

@@ -93,7 +93,7 @@ void Composite<D, Y, C>::store_variables(const PointState& s, const ParticleColu
 
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, std::size_t end,
-                                 double duration, BatchReport& report) const {
+                                 double duration, PointIntegrator* integrator, BatchReport& report) const {
   const double specific_volume = 1.0 / parameters_.elastic.density;
   PointState s;
   PointReport point;
@@ -108,9 +108,17 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
     if (elastic_only || stays_elastic(s, elastic_end, duration)) {
       s.elastic_strain = rotate(elastic_end, turn);
     } else {
-      point.event_count = 0;
-      point.dissipation = {};
-      respond(s, strain, duration, point);
+      point.clear();
+      if (integrator == nullptr) {
+        respond(s, strain, duration, point);
+      } else {
+        integrator->integrate(*this, s, strain, duration, point);
+        report.solver += point.solver;
+        if (point.failed()) {
+          if (!report.failed) report.failed = i, report.cause = point.cause;
+          continue;
+        }
+      }
       s.elastic_strain = rotate(s.elastic_strain, turn);
       if (C && is_localised(s)) {
         const double r = s.normal_r, z = s.normal_z;

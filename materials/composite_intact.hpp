@@ -36,7 +36,7 @@ double Composite<D, Y, C>::advance_intact(PointState& s, const SymmetricTensor& 
     done = end >= 1.0 ? 1.0 : done + end * (1.0 - done);
     if constexpr (C) {
       if (localises) {
-        start_decohesion(leg, s);
+        start_decohesion(leg.tension, s.crack_density > leg.start.crack_density, s);
         report.record(EventKind::localisation, done);
         return done;
       }
@@ -186,12 +186,13 @@ bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed
 
 /// Fixes plane, strength (eq. 18) and effective length from the state at localisation.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::start_decohesion([[maybe_unused]] const Leg& leg, PointState& s) const {
-  const Moduli moduli = secant(leg.tension, s.crack_density);
+void Composite<D, Y, C>::start_decohesion(bool tension, [[maybe_unused]] bool damage_grows,
+                                          PointState& s) const {
+  const Moduli moduli = secant(tension, s.crack_density);
   const bool all = decohesion_.parameters().search_all_planes;
   double best = std::numeric_limits<double>::infinity();
   if constexpr (D) {
-    if (leg.tension && s.crack_density > leg.start.crack_density) {
+    if (tension && damage_grows) {
       const InPlanePrincipal p = in_plane_principal(s.elastic_strain);
       const bool hoop = all && s.elastic_strain.tt > p.major;
       const double largest = hoop ? s.elastic_strain.tt : p.major;

@@ -105,25 +105,8 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   };
 
   if (denominator <= 0.0 && !viscous) {
-    // Snap-back at constant strain: to the next equilibrium (q < 1), or to separation. A touch more than the
-    // traction at hand leaves the equilibrium that is lost.
-    const double carried = effective(start);
-    const double push = (1.0 + 1e-10) * (carried > 0.0 ? std::max(1.0, strength / carried) : 1.0);
-    PlaneTraction pushed = start;
-    pushed.normal *= push, pushed.tangential *= push;
-    const DecohesionLaw::Advance next =
-        decohesion_.advance(s.decohesion, s.cohesive_strength, pushed, s.effective_length, 0.0);
-    if (next.separates) {
-      separated_at = 0.0;
-      separate(s, moduli, dissipation);
-    } else {
-      const double before = moduli.energy(s.elastic_strain), booked = dissipation.fracture;
-      soften(0.0, next);
-      const double excess =
-          std::max(0.0, before - moduli.energy(s.elastic_strain) - (dissipation.fracture - booked));
-      dissipation.fracture += excess;
-      dissipation.snap_back += excess;
-    }
+    snap_back(s, moduli, dissipation);
+    if (is_separated(s)) separated_at = 0.0;
     return 0.0;
   }
   const DecohesionLaw::Advance next = advanced(step);
@@ -144,6 +127,34 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   }
   separate(s, moduli, dissipation);
   return separated_at;
+}
+
+/// Snap-back at constant strain: to the next equilibrium (q < 1), or to separation.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::snap_back(PointState& s, const Moduli& moduli, Dissipation& dissipation) const {
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
+  // A touch more than the traction at hand leaves the equilibrium that is lost.
+  PlaneTraction pushed = traction(plane, s.elastic_strain, moduli);
+  const double carried = decohesion_.effective_traction(pushed.normal, pushed.tangential);
+  const double strength = decohesion_.strength(s.decohesion, s.cohesive_strength);
+  const double push = (1.0 + 1e-10) * (carried > 0.0 ? std::max(1.0, strength / carried) : 1.0);
+  pushed.normal *= push, pushed.tangential *= push;
+  const DecohesionLaw::Advance next =
+      decohesion_.advance(s.decohesion, s.cohesive_strength, pushed, s.effective_length, 0.0);
+  if (next.separates) {
+    separate(s, moduli, dissipation);
+    return;
+  }
+  const double before = moduli.energy(s.elastic_strain);
+  const double surface =
+      decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength) / s.effective_length;
+  s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
+  s.decohesion = next.decohesion;
+  s.opening_n += next.normal_opening;
+  s.opening_t += next.tangential_opening;
+  const double excess = std::max(0.0, before - moduli.energy(s.elastic_strain) - surface);
+  dissipation.fracture += surface + excess;
+  dissipation.snap_back += excess;
 }
 
 /// lambda := 1: the traction on the plane is released. A snap-back sets free more than eq. 13 asks for.

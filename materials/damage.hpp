@@ -59,6 +59,11 @@ class DamageLaw {
     if (mean_strain <= 0.0) return 0.0;
     return std::min(coefficient * power(mean_strain), crack_density_limit);
   }
+  /// d(target)/d(mean strain), without the cap.
+  double target_slope(double mean_strain, double coefficient) const {
+    if (mean_strain <= 0.0) return 0.0;
+    return parameters_.m * coefficient * power(mean_strain) / mean_strain;
+  }
   /// Mean strain at which eq. 7 reaches `crack_density` (>= 0).
   double mean_strain_at(double crack_density, double coefficient) const {
     return crack_density <= 0.0 ? 0.0 : std::pow(crack_density / coefficient, 1.0 / parameters_.m);

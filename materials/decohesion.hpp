@@ -50,6 +50,11 @@ struct PlaneTraction {
   double normal_stiffness, tangential_stiffness;  ///< diagonal of Q_e: lambda + 2G and G, Pa
 };
 
+/// The effective traction N on a plane (Pa) and its gradient m/u0 = dN/d(traction) (eq. 16).
+struct PlaneDrive {
+  double traction, normal, tangential;
+};
+
 /// The softening law of eqs. 13-18 on one plane. Only tensile normal traction drives decohesion.
 class DecohesionLaw {
  public:
@@ -63,9 +68,22 @@ class DecohesionLaw {
     const double n = std::max(normal, 0.0);
     return std::sqrt(n * n + shear_weight_ * tangential * tangential);
   }
+  /// The same with its gradient. pulled: the normal traction counts (whatever its sign: the branch is chosen
+  /// outside).
+  PlaneDrive drive(double normal, double tangential, bool pulled) const {
+    const double n = pulled ? normal : 0.0;
+    const double N = std::sqrt(n * n + shear_weight_ * tangential * tangential);
+    if (!(N > 0.0)) return {0.0, 1.0, 0.0};
+    return {N, n / N, shear_weight_ * tangential / N};
+  }
   /// tau_np (1 - lambda^q): the traction that the plane still carries, Pa.
   double strength(double decohesion, double onset_strength) const {
     return onset_strength * (1.0 - power(decohesion));
+  }
+  /// d strength / d lambda, Pa (negative; -infinity at lambda = 0 for q < 1).
+  double strength_slope(double decohesion, double onset_strength) const {
+    const double q = parameters_.q;
+    return q == 1.0 ? -onset_strength : -onset_strength * q * std::pow(decohesion, q - 1.0);
   }
   /// Energy per area that eq. 13 dissipates from lambda0 to lambda1, J/m^2 (U0/2 in all for q = 1), whatever
   /// the mode.

@@ -1,10 +1,14 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "materials/evolution.hpp"
 #include "materials/material_parameters.hpp"
 #include "materials/point_state.hpp"
 
@@ -32,12 +36,32 @@ struct Dissipation {
   }
 };
 
+/// Work of ODE solvers. Zero for closed-form responses.
+struct SolverCounters {
+  std::int64_t increments = 0;  ///< that reached a solver
+  std::int64_t solves = 0;      ///< modes integrated
+  std::int64_t steps = 0, right_hand_sides = 0;
+  std::int64_t failures = 0;  ///< attempts that failed and were repeated by other means
+
+  constexpr SolverCounters& operator+=(const SolverCounters& o) {
+    increments += o.increments, solves += o.solves, steps += o.steps;
+    right_hand_sides += o.right_hand_sides, failures += o.failures;
+    return *this;
+  }
+};
+
 /// What one increment of one point did besides changing its state.
 struct PointReport {
   static constexpr std::size_t capacity = 16;
   std::array<Event, capacity> events{};
   std::size_t event_count = 0;  ///< an increment that fires more keeps the first `capacity`
   Dissipation dissipation;
+  SolverCounters solver;
+  std::string cause;  ///< not empty: the increment could not be integrated
+
+  bool failed() const { return !cause.empty(); }
+  /// Forgets the last increment.
+  void clear() { event_count = 0, dissipation = {}, solver = {}, cause.clear(); }
 
   void record(EventKind kind, double fraction) {
     if (event_count < capacity) events[event_count++] = {kind, fraction};
@@ -67,6 +91,28 @@ struct BatchReport {
   double elastic = 0.0;    ///< stored energy at the end of the increment
   Dissipation dissipated;  ///< joules here, not J/m^3
   std::vector<ParticleEvent> events;
+  SolverCounters solver;
+  /// The first particle whose increment could not be integrated; its state is left as before the increment.
+  std::optional<std::size_t> failed;
+  std::string cause;  ///< of that failure
+
+  /// Back to zero; keeps its memory.
+  void clear() {
+    elastic = 0.0, dissipated = {}, solver = {};
+    events.clear(), failed.reset(), cause.clear();
+  }
+};
+
+class Material;
+
+/// How the increments that are not elastic are taken. Implemented by the local integrators.
+class PointIntegrator {
+ public:
+  virtual ~PointIntegrator() = default;
+  /// Takes one point over a strain increment of `duration` seconds. On failure report.cause says why, and the
+  /// state is of no use.
+  virtual void integrate(const Material& material, PointState& state, const SymmetricTensor& strain_increment,
+                         double duration, PointReport& report) = 0;
 };
 
 /// One point's constitutive law: isotropic elasticity + optional damage + optional plasticity + optional
@@ -87,9 +133,26 @@ class Material {
   /// a jump). The increment is given in the material's own turning frame; the state is not rotated here.
   virtual void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,
                        PointReport& report) const = 0;
-  /// The same for particles [begin, end), rotating each result by its spin. `report` is added to.
+  /// The same for particles [begin, end), rotating each result by its spin. `report` is added to. Increments
+  /// that stay elastic are taken here; the others by `integrator`, or in closed form when it is null.
   virtual void respond(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
-                       BatchReport& report) const = 0;
+                       PointIntegrator* integrator, BatchReport& report) const = 0;
+
+  // The same law as an ODE (evolution.hpp).
+  /// The mode at the start of a path. Performs the jumps that the state asks for (snap-back, excess shear)
+  /// and books them.
+  virtual EvolutionMode enter(PointState& state, const StrainPath& path, PointReport& report) const = 0;
+  /// The mode after `root` ended `mode` at `fraction` of the path; performs the jumps and records the event.
+  virtual void leave(EvolutionMode& mode, Root root, PointState& state, const StrainPath& path,
+                     double fraction, PointReport& report) const = 0;
+  virtual EvolutionRates rates(const EvolutionMode& mode, const PointState& state,
+                               const StrainPath& path) const = 0;
+  /// Event functions of the mode.
+  virtual void events(const EvolutionMode& mode, const PointState& state, const StrainPath& path,
+                      EventFunctions& functions) const = 0;
+  /// Drift correction: puts a state that was integrated with errors back onto the yield surface, the strength
+  /// of the plane, and traction-free faces.
+  virtual void settle(const EvolutionMode& mode, PointState& state, const StrainPath& path) const = 0;
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   virtual Moduli secant_moduli(const PointState& state) const = 0;
   /// Scalar damage D of eq. 8 (0 without a damage model).

@@ -65,7 +65,11 @@ class VonMisesLaw {
 
   /// H |s|^2 of eq. 24, Pa.
   double tangent_drop(double shear, double plastic_strain) const {
-    return 4.0 * shear * shear / (2.0 * shear + factor * modulus(plastic_strain));
+    return tangent_drop_of(shear, modulus(plastic_strain));
+  }
+  /// The same for a given slope of the strength, Pa.
+  static double tangent_drop_of(double shear, double modulus) {
+    return 4.0 * shear * shear / (2.0 * shear + factor * modulus);
   }
 
   static constexpr double factor = 0.81649658092772603;  // sqrt(2/3)

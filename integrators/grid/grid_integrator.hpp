@@ -14,7 +14,8 @@ struct IntegratorCounters {
 
 /// How much work the local constitutive equations took so far.
 struct ConstitutiveCounters {
-  std::int64_t evaluations = 0, cvode_solves = 0, cvode_steps = 0, cvode_rhs = 0, failures = 0, events = 0;
+  std::int64_t evaluations = 0, events = 0;
+  SolverCounters solver;  ///< of the substepper or of CVODE
 };
 
 /// Sees every accepted step; may stop the run.

@@ -4,7 +4,7 @@ namespace vitrum {
 
 void ClosedForm::integrate(const Material& material, const ParticleColumns& particles, std::size_t begin,
                            std::size_t end, double duration, BatchReport& report) {
-  material.respond(particles, begin, end, duration, report);
+  material.respond(particles, begin, end, duration, nullptr, report);
 }
 
 void ClosedForm::integrate(const Material& material, PointState& state,

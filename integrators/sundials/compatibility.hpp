@@ -1,4 +1,5 @@
 #pragma once
+#include <cvode/cvode.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 
@@ -11,6 +12,17 @@ inline int create_context(SUNContext* context) {
   return SUNContext_Create(SUN_COMM_NULL, context);
 #else
   return SUNContext_Create(nullptr, context);
+#endif
+}
+
+/// Keeps CVODE's own messages off the terminal; return values say the same. SUNDIALS 7 reports through the
+/// context.
+inline void silence_cvode([[maybe_unused]] void* cvode, [[maybe_unused]] SUNContext context) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  SUNContext_ClearErrHandlers(context);
+#else
+  CVodeSetErrHandlerFn(
+      cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);
 #endif
 }
 

@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "app/command_line.hpp"
-#include "integrators/local/closed_form.hpp"
 #include "mpm/computation_error.hpp"
+#include "scene/local_method.hpp"
 #include "scene/read_scene.hpp"
 
 namespace vitrum::app {
@@ -61,16 +61,22 @@ std::string row(const Material& material, double time, const SymmetricTensor& e,
 int drive_point(const PointOptions& options) {
   const PointScene scene = read_point(options.file, options.overrides);
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);
-  ClosedForm local;
+  const std::unique_ptr<LocalIntegrator> local = make_local_integrator(scene.constitutive);
   Csv csv(options.out);
   csv.line(header(*material));
 
-  PointState state = material->initial_state({});
+  PointState state = scene.state;
+  state.stress = material->secant_moduli(state).stress(state.elastic_strain);
   SymmetricTensor strain = scene.strain[0];
   double time = scene.time[0];
   const auto advance = [&](double to, const SymmetricTensor& target) {
     PointReport report;
-    local.integrate(*material, state, target - strain, to - time, report);
+    local->integrate(*material, state, target - strain, to - time, report);
+    if (report.failed())
+      throw ComputationError(
+          fmt::format("t = {} s: {}; try constitutive.method = \"closed-form\", a larger constitutive.rtol, "
+                      "or a finer strain path",
+                      time, report.cause));
     for (std::size_t k = 0; k < report.event_count; ++k)
       fmt::print(stderr, "event {} t={}\n", event_name(report.events[k].kind),
                  time + report.events[k].fraction * (to - time));

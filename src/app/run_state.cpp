@@ -21,6 +21,8 @@ void visit_numbers(State& s, Visit&& visit) {
         i.counters.limited_by_accuracy, i.counters.limited_by_output);
   visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.energy_step, s.result_steps,
         s.evaluations, s.events, s.wall_seconds);
+  auto& c = s.solver;
+  visit("solver", c.increments, c.solves, c.steps, c.right_hand_sides, c.failures);
 }
 
 const std::vector<double>& numbers_of(const output::Checkpoint& c, const std::string& name,

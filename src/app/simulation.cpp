@@ -7,9 +7,11 @@
 #include <numbers>
 
 #include "app/command_line.hpp"
+#include "app/failed_point.hpp"
 #include "app/signals.hpp"
 #include "integrators/grid/explicit.hpp"
 #include "mpm/computation_error.hpp"
+#include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
 #include "output/sha256.hpp"
 #include "output/xdmf.hpp"
@@ -72,6 +74,7 @@ void Simulation::resume() {
   system_.step_index = checkpoint.step_index;
   system_.constitutive_evaluations = state_.evaluations;
   system_.constitutive_events = state_.events;
+  system_.constitutive_solver = state_.solver;
   ledger_ = EnergyLedger(state_.energy);
   failure_.restore(state_.failure);
   integrator_->restore(state_.integrator);
@@ -122,6 +125,11 @@ bool Simulation::advance_to(double target) {
   bool reached = false;
   try {
     reached = integrator_->advance(system_, target, *this);
+  } catch (const PointFailure& error) {
+    const std::filesystem::path file = directory_ / "failed_point.toml";
+    output::write_text_atomically(file, failed_point(scene_, system_, error));
+    failed_ = fmt::format("t = {:.6e} s: {}; `vitrum point {}` replays it", system_.time, error.what(),
+                          file.string());
   } catch (const ComputationError& error) {
     failed_ = watchdog_.describe(system_, error.what(), last_step_);
   }
@@ -198,6 +206,7 @@ void Simulation::write_checkpoint() {
   state_.integrator = integrator_->state();
   state_.evaluations = system_.constitutive_evaluations;
   state_.events = system_.constitutive_events;
+  state_.solver = system_.constitutive_solver;
   store(state_, checkpoint);
   output::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/simulation.hpp"
+#include "scene/choices.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -78,10 +79,11 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.wall_seconds = state_.wall_seconds;
   s.threads = system_.team->size();
   s.integrator_method = "explicit";
-  s.constitutive_method = "closed-form";
+  s.constitutive_method = scene::name_of(scene::local_method_names, scene_.constitutive.method);
   s.integrator = integrator_->state().counters;
   s.constitutive.evaluations = system_.constitutive_evaluations;
   s.constitutive.events = system_.constitutive_events;
+  s.constitutive.solver = system_.constitutive_solver;
   s.energy = shown_energy();
   s.failure = failure_.report(system_, finite_state(system_));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -8,6 +9,18 @@ namespace vitrum {
 class ComputationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// A particle whose local equations could not be integrated. Its columns still hold the state before the
+/// increment, and the increment.
+class PointFailure : public ComputationError {
+ public:
+  PointFailure(const std::string& message, std::size_t body_index, std::size_t particle_index,
+               double increment_duration)
+      : ComputationError(message), body(body_index), particle(particle_index), duration(increment_duration) {}
+
+  std::size_t body, particle;  ///< index of the body, place of the particle in its columns
+  double duration;             ///< s
 };
 
 }  // namespace vitrum

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -23,6 +26,19 @@ ParticleColumns columns_of(Particles& p) {
   return c;
 }
 
+[[noreturn]] void fail(const System& system, std::size_t body, std::size_t particle, double duration,
+                       const std::string& cause) {
+  const Particles& p = system.bodies[body].particles;
+  throw PointFailure(
+      fmt::format(
+          "the local equations of body '{}', particle {} at ({:.6g}, {:.6g}) m could not be integrated over "
+          "{:.4g} s: {}; try a larger constitutive.rtol, a smaller step, or constitutive.method = "
+          "\"closed-form\"",
+          system.bodies[body].name, p.identity[particle], p.position[0][particle], p.position[1][particle],
+          duration, cause),
+      body, particle, duration);
+}
+
 }  // namespace
 
 void update_stress(System& system, double duration) {
@@ -38,14 +54,15 @@ void update_stress(System& system, double duration) {
     const ParticleColumns columns = columns_of(body.particles);
     if (reports.size() < chunks) reports.resize(chunks);
     system.team->for_each_chunk(chunks, [&](std::size_t k) {
-      reports[k].elastic = 0.0;
-      reports[k].dissipated = {};
-      reports[k].events.clear();
+      reports[k].clear();
       system.local->integrate(*body.material, columns, k * chunk_size, std::min(size, (k + 1) * chunk_size),
                               duration, reports[k]);
     });
+    for (std::size_t k = 0; k < chunks; ++k)
+      if (reports[k].failed) fail(system, n, *reports[k].failed, duration, reports[k].cause);
     for (std::size_t k = 0; k < chunks; ++k) {
       system.record.elastic += reports[k].elastic;
+      system.constitutive_solver += reports[k].solver;
       system.record.dissipated += reports[k].dissipated;
       for (const ParticleEvent& e : reports[k].events)
         system.record.events.push_back({n, e.particle, e.event});

@@ -41,7 +41,8 @@ struct System {
   std::int64_t step_index = 0;
   StepRecord record;
   std::int64_t constitutive_evaluations = 0, constitutive_events = 0;
-  bool grid_is_stale = true;  ///< a particle has left the cells its block was made for
+  SolverCounters constitutive_solver;  ///< work of the local ODE solvers so far
+  bool grid_is_stale = true;           ///< a particle has left the cells its block was made for
 
   std::size_t particle_count() const {
     std::size_t n = 0;

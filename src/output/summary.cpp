@@ -51,12 +51,18 @@ Json integrator_block(const std::string& method, const IntegratorCounters& count
 }
 
 Json constitutive_block(const std::string& method, const ConstitutiveCounters& counters) {
+  const SolverCounters& s = counters.solver;
+  const auto of_cvode = [&method](std::int64_t count) { return method == "cvode" ? count : 0; };
   return {{"method", method},
           {"evaluations", counters.evaluations},
-          {"cvode_solves", counters.cvode_solves},
-          {"cvode_steps", counters.cvode_steps},
-          {"cvode_rhs", counters.cvode_rhs},
-          {"failures", counters.failures},
+          {"cvode_solves", of_cvode(s.solves)},
+          {"cvode_steps", of_cvode(s.steps)},
+          {"cvode_rhs", of_cvode(s.right_hand_sides)},
+          {"increments_solved", s.increments},
+          {"solves", s.solves},
+          {"solver_steps", s.steps},
+          {"solver_rhs", s.right_hand_sides},
+          {"failures", s.failures},
           {"events", counters.events}};
 }
 

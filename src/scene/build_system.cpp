@@ -6,9 +6,9 @@
 #include <cmath>
 #include <thread>
 
-#include "integrators/local/closed_form.hpp"
 #include "mpm/transfer.hpp"
 #include "scene/input_error.hpp"
+#include "scene/local_method.hpp"
 #include "scene/seeding.hpp"
 
 namespace vitrum {
@@ -124,7 +124,7 @@ System build_system(const Scene& scene, int threads) {
     boundaries.push_back({b.box.min, b.box.max, b.fixed, b.velocity});
   system.grid =
       mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric, std::move(boundaries));
-  system.local = std::make_unique<ClosedForm>();
+  system.local = make_local_integrator(scene.constitutive);
   const int available =
       threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   system.team = std::make_unique<mpm::ThreadTeam>(

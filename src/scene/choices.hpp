@@ -19,9 +19,8 @@ inline constexpr std::array<std::string_view, 2> flow_names{"isochoric", "associ
 inline constexpr std::array<std::string_view, 2> plane_names{"in-plane", "all"};
 inline constexpr std::array<std::string_view, 1> rate_names{"running-maximum"};
 
-// The leading methods of the lists above that this version can run.
+// The leading methods of the list above that this version can run.
 inline constexpr std::size_t available_grid_methods = 1;
-inline constexpr std::size_t available_local_methods = 1;
 
 /// Components of a vector as `fix` names them.
 constexpr std::array<std::string_view, 2> component_names(Geometry geometry) {

@@ -65,9 +65,7 @@ void read_integrator(const TableReader& document, Scene& scene) {
 void read_constitutive(const TableReader& document, ConstitutiveDefinition& constitutive) {
   const auto table = document.table("constitutive", keys::constitutive());
   if (!table) return;
-  if (table->read_choice("method", constitutive.method))
-    require_available(*table, local_method_names, static_cast<std::size_t>(constitutive.method),
-                      available_local_methods);
+  table->read_choice("method", constitutive.method);
   table->read("rtol", constitutive.rtol);
   table->read("atol", constitutive.atol);
   std::size_t solver = 0;

@@ -81,6 +81,7 @@ PointScene parse_point(std::string_view text, std::string_view name,
     document.report("material", fmt::format("found {} materials, expected one", materials.size()));
   if (!materials.empty()) point.material = std::move(materials.front());
   read_constitutive(document, point.constitutive);
+  read_state(document, point);
   read_path(document, point);
   diagnostics.throw_if_any();
   return point;

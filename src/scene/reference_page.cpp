@@ -79,9 +79,13 @@ std::array<Section, 4> model_sections() {
   }};
 }
 
-std::array<Section, 2> point_sections() {
+std::array<Section, 3> point_sections() {
   return {{
       {"Point file", "`vitrum point` drives one material point along a strain path.", keys::point()},
+      {"[state]",
+       "State at the start of the path, e.g. of a particle whose increment failed (a run writes "
+       "`failed_point.toml`).",
+       keys::state()},
       {"[path]", "", keys::path()},
   }};
 }

@@ -101,6 +101,7 @@ struct Scene {
 struct PointScene {
   MaterialParameters material;
   ConstitutiveDefinition constitutive;
+  PointState state;                     ///< at the start; virgin unless the file gives [state]
   std::vector<double> time;             ///< s, increasing
   std::vector<SymmetricTensor> strain;  ///< one per time
   double size = 0.0;                    ///< cell size, m

@@ -12,6 +12,7 @@ inline constexpr double default_courant = 0.4;
 // The document and its sections.
 KeyTable scene();
 KeyTable point();
+KeyTable state();
 KeyTable space();
 KeyTable time();
 KeyTable integrator();

@@ -136,8 +136,22 @@ KeyTable point() {
   static const std::vector<KeyInfo> keys{
       required(other_key("material", "one table [material.NAME]", "the material, as in a scene")),
       other_key("constitutive", "a table [constitutive]", "as in a scene"),
+      other_key("state", "a table [state]", "state at the start of the path (default: virgin)"),
       required(other_key("path", "a table [path]", "the strain path")),
   };
+  return keys;
+}
+
+KeyTable state() {
+  static const std::vector<KeyInfo> keys = [] {
+    std::vector<KeyInfo> list{
+        list_key("elastic_strain", 4, finite, "1", "elastic strain (rr, zz, tt, rz) or (xx, yy, zz, xy)")};
+    for (const VariableInfo& v : all_variables()) {
+      const bool of_unit_vector = v.bounds.lowest == -1.0;  // whose length rounding may leave above 1
+      list.push_back(number_key(v.name, of_unit_vector ? finite : v.bounds, v.unit, v.description));
+    }
+    return list;
+  }();
   return keys;
 }
 

@@ -34,6 +34,8 @@ void require_countable(const TableReader& table, std::string_view key, const std
                        const Scene& scene);
 
 /// Reads [path] of a point file.
+/// [state] of a point file.
+void read_state(const TableReader& document, PointScene& point);
 void read_path(const TableReader& document, PointScene& point);
 
 }  // namespace vitrum::scene

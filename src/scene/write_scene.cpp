@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -182,6 +183,28 @@ std::string resolved_toml(const Scene& scene) {
   out.header("[gravity]");
   out.line("acceleration", scene.gravity);
   for (const MaterialParameters& material : scene.materials) write_material(out, material);
+  return out.take();
+}
+
+std::string point_toml(const PointScene& point) {
+  TomlWriter out;
+  write_material(out, point.material);
+  write_constitutive(out, point.constitutive);
+  out.header("[state]");
+  const auto components = [](const SymmetricTensor& a) {
+    return std::array<double, 4>{a.rr, a.zz, a.tt, a.rz};
+  };
+  out.line("elastic_strain", std::span<const double>(components(point.state.elastic_strain)));
+  for (const VariableInfo& v : all_variables())
+    out.line(v.name, point.state.*variable_members[static_cast<std::size_t>(v.variable)]);
+  out.header("[path]");
+  out.line("time", std::span<const double>(point.time));
+  std::string rows;
+  for (const SymmetricTensor& e : point.strain)
+    rows += (rows.empty() ? "" : ", ") + value_text(std::span<const double>(components(e)));
+  out.raw("strain", '[' + rows + ']');
+  out.line("size", point.size);
+  out.line("samples", point.samples);
   return out.take();
 }
 

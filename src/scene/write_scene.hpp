@@ -10,4 +10,7 @@ namespace vitrum {
 /// stay absent.
 std::string resolved_toml(const Scene& scene);
 
+/// A point file with every default filled in; parse_point reads it back.
+std::string point_toml(const PointScene& point);
+
 }  // namespace vitrum

@@ -44,14 +44,11 @@ class Arguments(CommandLineTest):
             self.assertRegex(self.vitrum(command, ".", status=2).stderr, "directory")
 
     def test_methods_not_available(self):
-        for key, method in (("integrator", "arkode-explicit"), ("integrator", "arkode-implicit"),
-                            ("constitutive", "substep"), ("constitutive", "cvode")):
+        for key, method in (("integrator", "arkode-explicit"), ("integrator", "arkode-implicit")):
             for command in ("run", "check"):
                 with self.subTest(method=method, command=command):
                     answer = self.vitrum(command, impact, "--set", f'{key}.method="{method}"', status=2)
                     self.assertRegex(answer.stderr, f"{key}.method.*{method}.*not available in this version")
-        answer = self.vitrum("point", glass_point, "--set", 'constitutive.method="cvode"', status=2)
-        self.assertIn("not available in this version", answer.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_full_disk_behind_standard_output(self):

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "materials/material.hpp"
@@ -26,6 +27,8 @@ struct Driven {
   Dissipation dissipation;
   double work = 0.0;
   double least_dissipation = 0.0;  ///< smallest total of one increment, J/m^3
+  std::string cause = {};          ///< of a failure
+  SolverCounters solver = {};
 
   double time_of(EventKind kind) const {  // -1 when it did not happen
     for (const TimedEvent& e : events)
@@ -38,9 +41,11 @@ struct Driven {
 };
 
 /// Follows `path` with `steps` equal increments a segment; the trapezoidal rule gives the work.
+/// integrator: null for the closed form. A failed increment ends the path; `cause` tells why.
 inline Driven drive(const Material& material, const std::vector<Segment>& path, int steps,
-                    PointState start = {}) {
-  Driven d{start, {}, {}, 0.0, 0.0};
+                    PointState start = {}, PointIntegrator* integrator = nullptr) {
+  Driven d;
+  d.state = start;
   double time = 0.0;
   for (const Segment& segment : path) {
     const double duration = segment.duration / steps;
@@ -48,7 +53,15 @@ inline Driven drive(const Material& material, const std::vector<Segment>& path, 
     for (int i = 0; i < steps; ++i) {
       const SymmetricTensor before = d.state.stress;
       PointReport report;
-      material.respond(d.state, strain, duration, report);
+      if (integrator == nullptr)
+        material.respond(d.state, strain, duration, report);
+      else
+        integrator->integrate(material, d.state, strain, duration, report);
+      if (report.failed()) {
+        d.cause = report.cause;
+        return d;
+      }
+      d.solver += report.solver;
       for (std::size_t k = 0; k < report.event_count; ++k)
         d.events.push_back({report.events[k].kind, time + duration * report.events[k].fraction});
       d.dissipation += report.dissipation;

@@ -79,7 +79,7 @@ TEST_CASE("the batch response without spin is the response of its points", "[mat
         stored += columns.mass[i] / 2500.0 * material->stored_energy(points[i]);
         for (std::size_t k = 0; k < point.event_count; ++k) events.push_back({i, point.events[k]});
       }
-      material->respond(columns.pointers, begin, end, 1e-7, report);
+      material->respond(columns.pointers, begin, end, 1e-7, nullptr, report);
       for (std::size_t i = 0; i < count; ++i) {
         REQUIRE(distance(columns.stress_of(i), points[i].stress) <= 1e-12 * norm(points[i].stress));
         REQUIRE(columns.strain_of(i) == points[i].elastic_strain);
@@ -116,7 +116,7 @@ TEST_CASE("the stored energy of a batch is the work on the material volume", "[m
     for (int i = 0; i < steps; ++i) {
       const SymmetricTensor before = columns.stress_of(0), strain_before = columns.strain_of(0);
       report = {};
-      glass->respond(columns.pointers, 0, 1, 1e-9, report);
+      glass->respond(columns.pointers, 0, 1, 1e-9, nullptr, report);
       const double volume = 1.0 + 0.5 * trace(strain_before + columns.strain_of(0));
       work += volume * contract(0.5 * (before + columns.stress_of(0)), (1.0 / steps) * e);
     }
@@ -149,8 +149,8 @@ TEST_CASE("a spin turns stress, strain and normal and leaves the rest", "[materi
       still.set_increment(0, e);
       turning.set_increment(0, rotate(e, turned));
       turning.spin[0] = spin;
-      material->respond(still.pointers, 0, 1, 1e-7, a);
-      material->respond(turning.pointers, 0, 1, 1e-7, b);
+      material->respond(still.pointers, 0, 1, 1e-7, nullptr, a);
+      material->respond(turning.pointers, 0, 1, 1e-7, nullptr, b);
       angle += spin;
       const Rotation now{std::cos(angle), std::sin(angle)};
       const double scale = norm(still.stress_of(0)) + 1e3;

@@ -23,7 +23,17 @@ class DescribedMaterial final : public Material {
   void respond(PointState&, const SymmetricTensor&, double, PointReport&) const override {
     throw std::logic_error("not for output");
   }
-  void respond(const ParticleColumns&, std::size_t, std::size_t, double, BatchReport&) const override {
+  EvolutionMode enter(PointState&, const StrainPath&, PointReport&) const override {
+    throw std::logic_error("not used");
+  }
+  void leave(EvolutionMode&, Root, PointState&, const StrainPath&, double, PointReport&) const override {}
+  EvolutionRates rates(const EvolutionMode&, const PointState&, const StrainPath&) const override {
+    return {};
+  }
+  void events(const EvolutionMode&, const PointState&, const StrainPath&, EventFunctions&) const override {}
+  void settle(const EvolutionMode&, PointState&, const StrainPath&) const override {}
+  void respond(const ParticleColumns&, std::size_t, std::size_t, double, PointIntegrator*,
+               BatchReport&) const override {
     throw std::logic_error("not for output");
   }
   Moduli secant_moduli(const PointState&) const override { throw std::logic_error("not for output"); }

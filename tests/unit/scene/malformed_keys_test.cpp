@@ -138,10 +138,6 @@ TEST_CASE("methods of other versions are valid names that this version refuses",
        "method = \"arkode-explicit\"",
        "s.toml:8:10: key 'integrator.method': ",
        {"found \"arkode-explicit\", which is not available in this version; available: \"explicit\""}},
-      {"[time]",
-       "[constitutive]\nmethod = \"cvode\"\n[time]",
-       "s.toml:6:10: key 'constitutive.method': ",
-       {"found \"cvode\"", "available: \"closed-form\""}},
   });
 }
 

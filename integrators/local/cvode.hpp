@@ -1,0 +1,24 @@
+#pragma once
+#include "integrators/local/event_driven.hpp"
+
+namespace vitrum {
+
+enum class CvodeFamily { bdf, adams };
+
+/// CVODE for every mode that evolves: variable order and step under error tolerances, roots located by its
+/// root finder. One bundle of CVODE memories a thread, used again for every particle.
+///
+/// A solve that fails is repeated with a small first step, then with BDF, then over ever shorter pieces of
+/// the path.
+class Cvode final : public EventDriven {
+ public:
+  Cvode(const LocalTolerance& tolerance, CvodeFamily family) : EventDriven(tolerance), family_(family) {}
+
+ protected:
+  bool solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) override;
+
+ private:
+  CvodeFamily family_;
+};
+
+}  // namespace vitrum

@@ -1,0 +1,105 @@
+#include "integrators/local/event_driven.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "materials/root.hpp"
+
+namespace vitrum {
+namespace {
+
+bool is_finite(const SymmetricTensor& a) {
+  return std::isfinite(a.rr + a.zz + a.tt + a.rz);
+}
+
+/// The state of a mode without curved evolution, `fraction` further along the path.
+PointState along(const PointState& start, const EvolutionRates& r, double fraction) {
+  PointState s = start;
+  s.elastic_strain += fraction * r.elastic_strain;
+  s.opening_n += fraction * r.opening_n;
+  s.opening_t += fraction * r.opening_t;
+  return s;
+}
+
+/// Moves the state to the first event of a straight mode, or to the end of the path; `done` is the fraction
+/// reached.
+std::optional<Root> follow_straight(const Material& material, const EvolutionMode& mode,
+                                    const StrainPath& path, PointState& state, double& done) {
+  const EvolutionRates r = material.rates(mode, state, path);
+  const double left = 1.0 - done;
+  EventFunctions functions;
+  material.events(mode, along(state, r, left), path, functions);
+  std::optional<Root> first;
+  double taken = left;
+  EventFunctions inside;
+  for (std::size_t k = 0; k < functions.count; ++k) {
+    if (!(functions.value[k] > 0.0)) continue;
+    // (The event functions of straight modes are convex along the path: what is below zero at its end never
+    // crossed.)
+    const double at = first_reached(0.0, left, [&](double f) {
+      material.events(mode, along(state, r, f), path, inside);
+      return inside.value[k] > 0.0;
+    });
+    if (!first || at < taken) first = functions.root[k], taken = at;
+  }
+  state = along(state, r, taken);
+  done = first ? done + taken : 1.0;
+  return first;
+}
+
+}  // namespace
+
+void EventDriven::integrate(const Material& material, PointState& state, const SymmetricTensor& strain,
+                            double duration, PointReport& report) {
+  if (!is_finite(strain) || !is_finite(state.elastic_strain) || !(duration >= 0.0)) {
+    report.cause = "the strain or its increment is not finite";
+    return;
+  }
+  constexpr int most_events = 200;
+  const StrainPath path{strain, duration, tolerance_.relative};
+  const double dissipated_before = report.dissipation.total();
+  double done = 0.0;
+  bool needs_solver = false;
+  EvolutionMode mode = material.enter(state, path, report);
+  for (int events = 0; done < 1.0; ++events) {
+    if (events == most_events) {
+      report.cause = fmt::format("more than {} changes of mode in one increment", most_events);
+      return;
+    }
+    std::optional<Root> root;
+    if (!mode.evolves()) {
+      root = follow_straight(material, mode, path, state, done);
+      if (!root) break;
+    } else {
+      needs_solver = true;
+      const ModeProblem problem(material, mode, path, state, done);
+      std::array<double, ModeProblem::capacity> y{};
+      problem.initial(y.data());
+      Stop stop;
+      ++report.solver.solves;
+      if (!solve(problem, y.data(), stop, report)) return;
+      for (std::size_t i = 0; i < problem.size(); ++i)
+        if (!std::isfinite(y[i])) {
+          report.cause = fmt::format("the {} is not finite", problem.name(i));
+          return;
+        }
+      report.dissipation += problem.dissipation(y.data());
+      done = problem.fraction(stop.parameter, y.data());
+      PointState next = problem.state(stop.parameter, y.data());
+      state = next;
+      material.settle(mode, state, path);
+      root = stop.root;
+      if (root == Root::path_end) break;
+      if (!root) continue;
+    }
+    done = std::min(done, 1.0);
+    material.leave(mode, *root, state, path, done, report);
+  }
+  if (needs_solver) ++report.solver.increments;
+  state.stress = material.secant_moduli(state).stress(state.elastic_strain);
+  state.dissipated += report.dissipation.total() - dissipated_before;
+  if (!is_finite(state.stress)) report.cause = "the stress is not finite";
+}
+
+}  // namespace vitrum

@@ -1,0 +1,71 @@
+#pragma once
+#include "materials/material.hpp"
+
+namespace vitrum {
+
+/// The equations of one mode as a system y' = f(parameter, y) with y scaled to O(1): only what the mode
+/// changes is an unknown, everything else follows from it. The parameter starts at 0 and runs to
+/// `parameter_end`, or to the root `path_end`.
+class ModeProblem {
+ public:
+  static constexpr std::size_t capacity = 13;  ///< most unknowns
+
+  /// The mode goes on from `state` at `fraction` of the path. The arguments must outlive the problem.
+  ModeProblem(const Material& material, const EvolutionMode& mode, const StrainPath& path,
+              const PointState& state, double fraction);
+
+  std::size_t size() const { return size_; }
+  double parameter_end() const { return parameter_end_; }
+  /// Longest sensible step.
+  double parameter_scale() const { return 1.0 - start_fraction_; }
+  /// Whether the rates relax much faster than the path goes.
+  bool stiff() const { return mode_.decohering() && mode_.viscous; }
+
+  void initial(double* y) const;
+  /// Writes size() rates. False where they are not finite.
+  bool rates(double parameter, const double* y, double* rates) const;
+  void events(double parameter, const double* y, EventFunctions& functions) const;
+
+  /// Drift correction: moves y onto the surfaces that the mode keeps to.
+  void settle(double parameter, double* y) const;
+
+  /// What y stands for.
+  PointState state(double parameter, const double* y) const;
+  double fraction(double parameter, const double* y) const;
+  /// Energies dissipated since the start of the mode, J/m^3.
+  Dissipation dissipation(const double* y) const;
+  /// Name of an unknown, for messages.
+  const char* name(std::size_t unknown) const;
+
+ private:
+  enum class Unknown : unsigned char {
+    elastic_rr,
+    elastic_zz,
+    elastic_tt,
+    elastic_rz,
+    plastic_strain,
+    crack_density,
+    decohesion,
+    opening_n,
+    opening_t,
+    plastic,
+    damage,
+    fracture,
+    fraction,
+  };
+  void add(Unknown unknown, double scale, double start) {
+    unknowns_[size_] = unknown, scales_[size_] = scale, starts_[size_++] = start;
+  }
+
+  const Material& material_;
+  const EvolutionMode& mode_;
+  const StrainPath& path_;
+  const PointState& start_;
+  double start_fraction_, parameter_end_;
+  bool fraction_is_unknown_;
+  std::size_t size_ = 0;
+  std::array<Unknown, capacity> unknowns_{};
+  std::array<double, capacity> scales_{}, starts_{};
+};
+
+}  // namespace vitrum

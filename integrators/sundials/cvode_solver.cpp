@@ -1,0 +1,94 @@
+#include "integrators/sundials/cvode_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace vitrum::sundials {
+namespace {
+
+int right_hand_side(sunrealtype t, N_Vector y, N_Vector rates, void* system) {
+  const bool finite =
+      static_cast<OdeSystem*>(system)->rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates));
+  return finite ? 0 : 1;
+}
+
+int root_functions(sunrealtype t, N_Vector y, sunrealtype* values, void* system) {
+  static_cast<OdeSystem*>(system)->roots(t, N_VGetArrayPointer(y), values);
+  return 0;
+}
+
+void require(bool good, const char* what) {
+  if (!good) throw std::runtime_error(std::string("CVODE could not be set up: ") + what);
+}
+
+}  // namespace
+
+CvodeSolver::CvodeSolver(const Context& context, std::size_t size, CvodeMethod method) {
+  const auto n = static_cast<sunindextype>(size);
+  vector_.reset(N_VNew_Serial(n, context.get()));
+  require(vector_ != nullptr, "vector");
+  N_VConst(0.0, vector_.get());
+  memory_.reset(CVodeCreate(method == CvodeMethod::bdf ? CV_BDF : CV_ADAMS, context.get()));
+  require(memory_ != nullptr, "memory");
+  void* m = memory_.get();
+  silence_cvode(m, context.get());
+  require(CVodeInit(m, right_hand_side, 0.0, vector_.get()) == CV_SUCCESS, "initialisation");
+  require(CVodeSStolerances(m, 1e-6, 1e-9) == CV_SUCCESS, "tolerances");
+  if (method == CvodeMethod::bdf) {
+    matrix_.reset(SUNDenseMatrix(n, n, context.get()));
+    linear_.reset(SUNLinSol_Dense(vector_.get(), matrix_.get(), context.get()));
+    require(matrix_ && linear_, "dense solver");
+    require(CVodeSetLinearSolver(m, linear_.get(), matrix_.get()) == 0, "linear solver");
+  } else {
+    fixed_point_.reset(SUNNonlinSol_FixedPoint(vector_.get(), 0, context.get()));
+    require(fixed_point_ != nullptr, "fixed-point iteration");
+    require(CVodeSetNonlinearSolver(m, fixed_point_.get()) == 0, "nonlinear solver");
+  }
+  require(CVodeRootInit(m, roots, root_functions) == CV_SUCCESS, "roots");
+  std::array<int, roots> upwards;
+  upwards.fill(1);
+  CVodeSetRootDirection(m, upwards.data());
+  CVodeSetNoInactiveRootWarn(m);
+}
+
+auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings& settings) -> Result {
+  void* m = memory_.get();
+  N_Vector v = vector_.get();
+  double* data = N_VGetArrayPointer(v);
+  const auto n = static_cast<std::size_t>(N_VGetLength(v));
+  std::copy(y, y + n, data);
+  Result result;
+  CVodeSetUserData(m, &system);
+  result.flag = CVodeReInit(m, 0.0, v);
+  if (result.failed()) return result;
+  CVodeSStolerances(m, settings.relative, settings.absolute);
+  CVodeSetMaxNumSteps(m, settings.most_steps);
+  CVodeSetMaxStep(m, settings.longest_step);
+  CVodeSetInitStep(m, settings.first_step);
+  CVodeSetStopTime(m, end);  // anew after every ReInit: a stale one survives a root
+  sunrealtype reached = 0.0;
+  result.flag = CVode(m, end, v, &reached, CV_NORMAL);
+  result.time = reached;
+  CVodeGetNumSteps(m, &result.steps);
+  long of_linear = 0;
+  CVodeGetNumRhsEvals(m, &result.right_hand_sides);
+  if (linear_ && CVodeGetNumLinRhsEvals(m, &of_linear) == 0) result.right_hand_sides += of_linear;
+  if (result.failed()) return result;
+  if (result.flag == CV_ROOT_RETURN) {
+    std::array<int, roots> found{};
+    CVodeGetRootInfo(m, found.data());
+    for (int k = 0; k < roots && result.root < 0; ++k)
+      if (found[static_cast<std::size_t>(k)] != 0) result.root = k;
+  }
+  std::copy(data, data + n, y);
+  return result;
+}
+
+std::string CvodeSolver::Result::message() const {
+  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(flag), &std::free);
+  return name ? name.get() : "unknown";
+}
+
+}  // namespace vitrum::sundials

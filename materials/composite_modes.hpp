@@ -1,0 +1,385 @@
+#pragma once
+#include "materials/composite.hpp"
+
+namespace vitrum {
+
+template <bool D, Yielding Y, bool C>
+EvolutionMode Composite<D, Y, C>::enter(PointState& s, const StrainPath& path, PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  EvolutionMode mode;
+  const double start = trace(s.elastic_strain);
+  mode.tension = start > 0.0 || (start == 0.0 && trace(path.strain) > 0.0);
+  if constexpr (C)
+    if (is_localised(s))
+      mode.plane = !is_separated(s) ? Plane::held : s.opening_n > 0.0 ? Plane::open : Plane::closed;
+  choose(mode, std::nullopt, s, path, 0.0, report);
+  return mode;
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, const StrainPath& path,
+                               double fraction, PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  switch (root) {
+    case Root::side:
+      mode.tension = !mode.tension;
+      break;
+    case Root::damage:
+      mode.damaging = true;
+      break;
+    case Root::exhausted:
+      s.crack_density = crack_density_limit;
+      mode.damaging = false;
+      break;
+    case Root::yield:
+      report.record(EventKind::yield, fraction);
+      break;
+    case Root::branch:
+      s.plastic_strain = mode.branch_end;
+      if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction);
+      break;
+    case Root::localisation:
+      localise(mode, s, fraction, report);
+      break;
+    case Root::snap_back:
+      release_plane(mode, s, fraction, report);
+      break;
+    case Root::pull:
+      // The traction equals the strength: where what is left by shear does not, it is the strength that has
+      // vanished.
+      if (shear_carries_strength(mode, s))
+        mode.pulled = !mode.pulled;
+      else
+        separate_plane(mode, s, fraction, report);
+      break;
+    case Root::separation:
+      separate_plane(mode, s, fraction, report);
+      break;
+    case Root::closure:
+      s.opening_n = 0.0;
+      mode.plane = Plane::closed;
+      report.record(EventKind::closure, fraction);
+      break;
+    case Root::opening:
+      mode.plane = Plane::open;
+      break;
+    case Root::unload:
+    case Root::decohesion:
+    case Root::stall:
+    case Root::path_end:
+      break;
+  }
+  choose(mode, root, s, path, fraction, report);
+}
+
+/// Settles which laws act from here on, after the jumps that the state asks for.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, PointState& s,
+                                const StrainPath& path, double fraction, PointReport& report) const {
+  if constexpr (D) choose_damage(mode, s, path, fraction, report);
+  if constexpr (has_yield) fall_onto_surface(mode, s, fraction, report);
+  // A jump may ask for another: a bounded number of times.
+  constexpr int most_jumps = 8;
+  for (int i = 0; i < most_jumps; ++i) {
+    using Plane = EvolutionMode::Plane;
+    // What strength is left is the error of the integration.
+    const double separated = 1.0 - std::max(1e-12, 10.0 * path.tolerance);
+    if ((mode.plane == Plane::held || mode.decohering()) && s.decohesion >= separated)
+      separate_plane(mode, s, fraction, report);
+    const bool may_flow = root != Root::unload && on_surface(mode, s, root == Root::yield);
+    const bool may_open = root != Root::stall && at_strength(mode, s);
+    set_branch(mode, s);
+    choose_flow(mode, s, path, may_flow, may_open);
+    if constexpr (C) {
+      if (mode.decohering() && !mode.viscous && !(rates(mode, s, path).fraction > 0.0)) {
+        release_plane(mode, s, fraction, report);
+        continue;
+      }
+      if (mode.plane == EvolutionMode::Plane::intact && localises(mode, s)) {
+        localise(mode, s, fraction, report);
+        continue;
+      }
+    }
+    if constexpr (Y == Yielding::von_mises) {
+      if (mode.flowing && falls_through(mode, s)) {
+        fall_at_constant_strain(mode, s, report);
+        continue;
+      }
+    }
+    return;
+  }
+}
+
+/// Rate and coefficient of eq. 7 on this side, and whether the crack density grows.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, PointState& s, const StrainPath& path,
+                                       double fraction, PointReport& report) const {
+  const double change = trace(path.strain);
+  const bool can = mode.plane == EvolutionMode::Plane::intact && mode.tension;
+  if (!can) {
+    mode.damaging = false;
+    return;
+  }
+  if (change > 0.0 && path.duration > 0.0) s.max_rate = std::max(s.max_rate, change / (3.0 * path.duration));
+  mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
+  const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
+  if (s.crack_density == 0.0 && target > 1e-12) {  // an initial stress asks for damage at once
+    const double before = stored_energy(s);
+    s.crack_density = target;
+    report.dissipation.damage += before - stored_energy(s);
+    report.record(EventKind::damage, fraction);
+  }
+  const bool reached = mode.damaging || target >= s.crack_density * (1.0 - 1e-12);
+  const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
+  if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction);
+  mode.damaging = grows;
+}
+
+/// Shear that only tension allowed, or an initial stress, falls onto the yield surface at constant strain.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
+                                           PointReport& report) const {
+  if (!surface_acts(mode.tension)) return;
+  const Moduli m = secant(mode.tension, s.crack_density);
+  const double excess = yield_function(s, m);
+  if (!(excess > 1e-9 * m.shear * norm(deviator(s.elastic_strain)))) return;
+  if (C && mode.separated())
+    flow_behind_crack(s, excess, report.dissipation);
+  else
+    report.dissipation.plastic += flow(s, m, excess);
+  report.record(EventKind::yield, fraction);
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const {
+  if constexpr (has_yield) {
+    if (!surface_acts(mode.tension)) return false;
+    if (reached || mode.flowing) return true;
+    const Moduli m = secant(mode.tension, s.crack_density);
+    return yield_function(s, m) >= -1e-9 * m.shear * norm(deviator(s.elastic_strain));
+  } else {
+    return false;
+  }
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::at_strength(const EvolutionMode& mode, const PointState& s) const {
+  if constexpr (C) {
+    using Plane = EvolutionMode::Plane;
+    if (mode.plane != Plane::held && mode.plane != Plane::decohering) return false;
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const PlaneTraction t = traction({s.normal_r, s.normal_z}, s.elastic_strain, m);
+    const double N = decohesion_.effective_traction(t.normal, t.tangential);
+    return N > 0.0 &&
+           N >= decohesion_.strength(s.decohesion, s.cohesive_strength) - 1e-9 * s.cohesive_strength;
+  } else {
+    return false;
+  }
+}
+
+/// Hardening, softening or residual branch of the strength.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const PointState& s) const {
+  if constexpr (Y == Yielding::von_mises) {
+    mode.hardening_modulus = von_mises_.modulus(s.plastic_strain);
+    mode.branch_end = s.plastic_strain < von_mises_.peak_strain() ? von_mises_.peak_strain()
+                      : s.plastic_strain < von_mises_.floor_strain()
+                          ? von_mises_.floor_strain()
+                          : std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Of flow and decohesion, those that go forward: both together, then each alone.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path,
+                                     bool may_flow, bool may_open) const {
+  using Plane = EvolutionMode::Plane;
+  if constexpr (C) {
+    mode.viscous = decohesion_.viscosity() > 0.0;
+    if (may_open) {
+      const Moduli m = secant(mode.tension, s.crack_density);
+      const PlaneTraction t = traction({s.normal_r, s.normal_z}, s.elastic_strain, m);
+      if (mode.plane == Plane::held) mode.pulled = t.normal > 0.0;
+    }
+    if (mode.plane == Plane::held || mode.plane == Plane::decohering)
+      mode.plane = may_open ? Plane::decohering : Plane::held;
+  }
+  mode.flowing = may_flow;
+  if constexpr (C) {
+    if (may_open) {
+      // The elastic material behind the plane drives it beyond what it can bear: it snaps back whether or not
+      // the material flows.
+      mode.flowing = false;
+      const EvolutionRates alone = rates(mode, s, path);
+      if (alone.decohesion > 0.0 && !(alone.fraction > 0.0)) return;
+      mode.flowing = may_flow;
+    }
+  }
+  if constexpr (has_yield || C) {
+    const bool falls = mode.flowing && Y == Yielding::von_mises && falls_through(mode, s);
+    if (mode.flowing && mode.decohering()) {
+      const EvolutionRates together = rates(mode, s, path);
+      const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
+      // Where each relieves the other by more than it relieves itself (fraction < 0), only one can go on.
+      if (together.fraction > 0.0 && opens && flows) return;
+      EvolutionMode flow_alone = mode;
+      flow_alone.plane = Plane::held;
+      const bool by_flow = !opens && rates(flow_alone, s, path).plastic_strain > 0.0;
+      if (together.fraction > 0.0 ? by_flow : flows)
+        mode.plane = Plane::held;
+      else
+        mode.flowing = false;
+    }
+    const EvolutionRates r = rates(mode, s, path);
+    if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
+    if (mode.flowing && !(r.plastic_strain > 0.0) && !falls) mode.flowing = false;
+  }
+}
+
+/// Whether the strength falls faster than elastic unloading at constant strain.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::falls_through(const EvolutionMode& mode, const PointState& s) const {
+  const Moduli m = secant(mode.tension, s.crack_density);
+  SymmetricTensor given = flow_direction(s);
+  if constexpr (C) {
+    double gap = 0.0, slip = 0.0;
+    if (mode.separated()) given = give_way(mode, s, m, given, gap, slip);
+  }
+  return contract(yield_gradient(s, m), given) + VonMisesLaw::factor * mode.hardening_modulus <= 0.0;
+}
+
+/// Softening faster than elasticity unloads: the stress falls at constant strain to where the strength meets
+/// it.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::fall_at_constant_strain(const EvolutionMode& mode, PointState& s,
+                                                 PointReport& report) const {
+  const double stored = stored_energy(s);
+  if (!C || !mode.separated()) {
+    s.elastic_strain += 1e-12 * deviator(s.elastic_strain);
+    report.dissipation.plastic += flow(s, secant(mode.tension, s.crack_density), 0.0);
+    return;
+  }
+  if constexpr (C) {
+    // Behind traction-free faces, which give way as it falls: in small steps to the end of the branch, or
+    // until the stress is inside again.
+    constexpr int steps = 64;
+    const double step = (mode.branch_end - s.plastic_strain) / steps;
+    for (int i = 0; i < steps; ++i) {
+      const PointState before = s;
+      s.elastic_strain -= std::min(step, norm(deviator(s.elastic_strain))) * flow_direction(s);
+      s.plastic_strain = i + 1 == steps ? mode.branch_end : s.plastic_strain + step;
+      relax_crack(s);
+      const bool tension = trace(s.elastic_strain) > 0.0;
+      if (i > 0 && yield_function(s, secant(tension, s.crack_density)) < 0.0) {
+        s = before;
+        break;
+      }
+    }
+    report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
+    Dissipation beyond;
+    flow_behind_crack(s, std::numeric_limits<double>::infinity(), beyond);
+    report.dissipation += beyond;
+  }
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::localises(const EvolutionMode& mode, const PointState& s) const {
+  if constexpr (D && C)
+    if (mode.damaging && s.crack_density > 0.0 && damage_localisation(s) <= 0.0) return true;
+  if constexpr (Y == Yielding::von_mises && C)
+    if (mode.flowing && mode.hardening_modulus < 0.0 &&
+        flow_localisation(s, secant(mode.tension, s.crack_density), mode.hardening_modulus) <= 0.0)
+      return true;
+  return false;
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::localise(EvolutionMode& mode, PointState& s, double fraction,
+                                  PointReport& report) const {
+  if constexpr (C) {
+    start_decohesion(mode.tension, mode.damaging, s);
+    mode.damaging = false;
+    mode.plane = EvolutionMode::Plane::held;
+    report.record(EventKind::localisation, fraction);
+  }
+}
+
+/// Snap-back at constant strain: to the next equilibrium (q < 1), or to separation.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::release_plane(EvolutionMode& mode, PointState& s, double fraction,
+                                       PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  if constexpr (C) {
+    snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
+    if (is_separated(s)) {
+      mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
+      report.record(EventKind::separation, fraction);
+    } else {
+      mode.plane = Plane::held;
+    }
+  }
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::separate_plane(EvolutionMode& mode, PointState& s, double fraction,
+                                        PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  if constexpr (C) {
+    separate(s, secant(mode.tension, s.crack_density), report.dissipation);
+    mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
+    report.record(EventKind::separation, fraction);
+  }
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::shear_carries_strength(const EvolutionMode& mode, const PointState& s) const {
+  const PlaneTraction t =
+      traction({s.normal_r, s.normal_z}, s.elastic_strain, secant(mode.tension, s.crack_density));
+  return mode.viscous || decohesion_.effective_traction(0.0, t.tangential) >
+                             0.5 * decohesion_.strength(s.decohesion, s.cohesive_strength);
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::settle(const EvolutionMode& mode, PointState& s, const StrainPath&) const {
+  if constexpr (C) {
+    if (mode.decohering() && !mode.viscous) {
+      const Moduli m = secant(mode.tension, s.crack_density);
+      const double u0 = decohesion_.reference_opening();
+      for (int i = 0; i < 2; ++i) {
+        const Softening w = softening(mode, s, m);
+        const double resistance = w.stiffness + w.slope;
+        if (!(resistance > 1e-3 * w.stiffness)) break;  // next to a snap-back the correction is ill-posed
+        const double step = (w.drive.traction - w.strength) / resistance;
+        if (!(std::abs(step) < 1e-2) || s.decohesion + step >= 1.0) break;
+        s.decohesion += step;
+        s.opening_n += step * u0 * w.drive.normal;
+        s.opening_t += step * u0 * w.drive.tangential;
+        s.elastic_strain -= step * w.jump;
+      }
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    if constexpr (C)
+      if (mode.separated()) relax_crack(s);
+    if constexpr (has_yield) {
+      if (mode.flowing) {
+        const Moduli m = secant(mode.tension, s.crack_density);
+        const SymmetricTensor direction = flow_direction(s);
+        SymmetricTensor given = direction;
+        double gap = 0.0, slip = 0.0;
+        if constexpr (C)
+          if (mode.separated()) given = give_way(mode, s, m, direction, gap, slip);
+        double stiffness = contract(yield_gradient(s, m), given);
+        if constexpr (Y == Yielding::von_mises) stiffness += VonMisesLaw::factor * mode.hardening_modulus;
+        if (!(stiffness > 0.0)) return;
+        const double step = yield_function(s, m) / stiffness;
+        s.elastic_strain -= step * given;
+        s.plastic_strain += step;
+        s.opening_n -= gap * step, s.opening_t -= slip * step;
+      }
+    }
+    if (!mode.flowing || !mode.separated()) break;
+  }
+}
+
+}  // namespace vitrum

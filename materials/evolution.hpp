@@ -1,0 +1,88 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include "materials/point_state.hpp"
+
+/// The laws of this folder as ordinary differential equations. Over an increment the strain runs along a
+/// straight line; the point is in one mode at a time, in which its rates are smooth; a mode ends at a root of
+/// one of its event functions.
+namespace vitrum {
+
+/// A straight strain path, followed by its fraction in [0, 1].
+struct StrainPath {
+  SymmetricTensor strain;  ///< whole increment
+  double duration;         ///< s
+  double tolerance = 0.0;  ///< relative error with which the state along it is known
+};
+
+/// Which of the laws act. Frozen between events.
+struct EvolutionMode {
+  enum class Plane {
+    intact,      ///< not localised
+    held,        ///< localised, traction below the strength: elastic with the opening frozen
+    decohering,  ///< the plane softens, eqs. 13-18
+    open,        ///< separated, faces free of traction
+    closed       ///< separated, faces in contact without friction
+  };
+
+  bool tension = false;   ///< side of zero mean elastic strain
+  bool damaging = false;  ///< crack density follows eq. 7
+  bool flowing = false;   ///< on the yield surface
+  bool pulled = false;    ///< decohering under tensile normal traction (otherwise by shear alone)
+  bool viscous = false;   ///< decohering with a viscosity
+  Plane plane = Plane::intact;
+  double coefficient = 0.0;                                     ///< C(R) of eq. 7
+  double hardening_modulus = 0.0;                               ///< h of eq. 21 on the present branch, Pa
+  double branch_end = std::numeric_limits<double>::infinity();  ///< plastic strain at which it ends
+
+  bool decohering() const { return plane == Plane::decohering; }
+  bool separated() const { return plane == Plane::open || plane == Plane::closed; }
+  /// Whether anything but the elastic strain changes along a curve; otherwise the state moves along a
+  /// straight line.
+  bool evolves() const { return damaging || flowing || decohering(); }
+};
+
+/// d(state)/d(parameter). The parameter is the fraction of the path, except where a plane decoheres without
+/// viscosity: there `fraction` falls to zero as the plane approaches a snap-back, where the rates with
+/// respect to the fraction would be infinite.
+struct EvolutionRates {
+  double fraction = 1.0;
+  SymmetricTensor elastic_strain{};
+  double crack_density = 0.0, plastic_strain = 0.0, decohesion = 0.0, opening_n = 0.0, opening_t = 0.0;
+  double plastic = 0.0, damage = 0.0, fracture = 0.0;  ///< dissipation, J/m^3
+};
+
+/// What may end a mode.
+enum class Root : unsigned char {
+  side,          ///< the mean elastic strain changes sign
+  damage,        ///< eq. 7 reaches the crack density held so far
+  exhausted,     ///< the crack density reaches its limit
+  yield,         ///< the yield surface is reached
+  unload,        ///< the plastic multiplier vanishes
+  branch,        ///< hardening or softening ends
+  localisation,  ///< Phi = 0, or H = H_cr
+  decohesion,    ///< the traction reaches the strength of the plane
+  stall,         ///< the rate of decohesion vanishes
+  snap_back,     ///< no equilibrium is left beyond
+  pull,          ///< the normal traction of a softening plane changes sign
+  separation,    ///< lambda = 1
+  closure,       ///< the gap vanishes
+  opening,       ///< the contact traction vanishes
+  path_end,      ///< the path ends (added by the solvers where the fraction is an unknown)
+};
+
+/// The event functions of a mode, scaled to O(1): below zero inside the mode, crossing zero upwards where it
+/// ends.
+struct EventFunctions {
+  static constexpr std::size_t capacity = 12;
+  std::array<Root, capacity> root{};
+  std::array<double, capacity> value{};
+  std::size_t count = 0;
+
+  void add(Root r, double v) { root[count] = r, value[count++] = v; }
+};
+
+}  // namespace vitrum

@@ -1,0 +1,12 @@
+#pragma once
+#include <memory>
+
+#include "integrators/local/local_integrator.hpp"
+#include "scene/scene.hpp"
+
+namespace vitrum {
+
+/// The local integrator that [constitutive] names.
+std::unique_ptr<LocalIntegrator> make_local_integrator(const ConstitutiveDefinition& constitutive);
+
+}  // namespace vitrum
