@@ -70,6 +70,13 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
       break;
   }
   choose(mode, root, s, path, fraction, report);
+  if (root != Root::side) {
+    mode.sliding = false;
+  } else if (const double rate = trace(rates(mode, s, path).elastic_strain); mode.tension ? rate < 0.0 : rate > 0.0) {
+    mode.tension = !mode.tension;
+    mode.sliding = true;
+    choose(mode, root, s, path, fraction, report);
+  }
 }
 
 /// Settles which laws act from here on, after the jumps that the state asks for.
@@ -220,12 +227,12 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     if (mode.flowing && mode.decohering()) {
       const EvolutionRates together = rates(mode, s, path);
       const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
-      // Where each relieves the other by more than it relieves itself (fraction < 0), only one can go on.
+      // Otherwise one goes on and relieves the other.
       if (together.fraction > 0.0 && opens && flows) return;
       EvolutionMode flow_alone = mode;
       flow_alone.plane = Plane::held;
       const bool by_flow = !opens && rates(flow_alone, s, path).plastic_strain > 0.0;
-      if (together.fraction > 0.0 ? by_flow : flows)
+      if (by_flow)
         mode.plane = Plane::held;
       else
         mode.flowing = false;

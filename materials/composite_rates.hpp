@@ -182,7 +182,7 @@ void Composite<D, Y, C>::events(const EvolutionMode& mode, const PointState& s, 
   const double size = norm(path.strain), per_size = size > 0.0 ? 1.0 / size : 0.0;
   const double t = trace(s.elastic_strain);
   const bool intact = mode.plane == EvolutionMode::Plane::intact;
-  if (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0)))
+  if (!mode.sliding && (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0))))
     g.add(Root::side, (mode.tension ? -t : t) * per_size);
   if constexpr (D) {
     if (mode.damaging) {

@@ -60,6 +60,8 @@ bool Cvode::solve(const ModeProblem& problem, double* y, Stop& stop, PointReport
   const CvodeMethod configured = family_ == CvodeFamily::bdf ? CvodeMethod::bdf : CvodeMethod::adams;
   // Adams with a fixed-point iteration would need steps of the relaxation time of a stiff mode.
   const CvodeMethod first = problem.stiff() ? CvodeMethod::bdf : configured;
+  std::array<double, ModeProblem::capacity> absolute{};
+  problem.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
   struct Attempt {
     CvodeMethod method;
     double first_step, end;
@@ -73,7 +75,7 @@ bool Cvode::solve(const ModeProblem& problem, double* y, Stop& stop, PointReport
     std::copy(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n), y);
     result = bundle.solver(n, a.method)
                  .solve(system, y, a.end,
-                        {tolerance().relative, tolerance().absolute, scale, a.first_step, 20'000});
+                        {tolerance().relative, absolute.data(), scale, a.first_step, 20'000});
     report.solver.steps += result.steps;
     report.solver.right_hand_sides += result.right_hand_sides;
     if (!result.failed()) {

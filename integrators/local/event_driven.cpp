@@ -99,7 +99,8 @@ void EventDriven::integrate(const Material& material, PointState& state, const S
   if (needs_solver) ++report.solver.increments;
   state.stress = material.secant_moduli(state).stress(state.elastic_strain);
   state.dissipated += report.dissipation.total() - dissipated_before;
-  if (!is_finite(state.stress)) report.cause = "the stress is not finite";
+  if (!is_finite(state.stress) || !std::isfinite(state.dissipated + state.opening_n + state.opening_t))
+    report.cause = "the stress, the opening or the dissipation is not finite";
 }
 
 }  // namespace vitrum

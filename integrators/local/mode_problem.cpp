@@ -1,5 +1,6 @@
 #include "integrators/local/mode_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitrum {
@@ -14,8 +15,9 @@ ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, co
       parameter_end_(1.0 - fraction),
       fraction_is_unknown_(mode.decohering() && !mode.viscous) {
   const MaterialParameters& p = material.parameters();
-  const double strain = norm(state.elastic_strain) + norm(path.strain);
-  const double energy = elastic_moduli(p.elastic).p_wave() * strain * strain;
+  constexpr double nothing = 1.0e-100;  // keeps the scales of a point at rest off zero
+  const double change = std::max(norm(path.strain), nothing), strain = norm(state.elastic_strain) + change;
+  const double energy = elastic_moduli(p.elastic).p_wave() * strain * change;  // work of the increment
   if (mode.flowing) {
     const SymmetricTensor& e = state.elastic_strain;
     add(Unknown::elastic_rr, strain, e.rr), add(Unknown::elastic_zz, strain, e.zz);
@@ -37,6 +39,11 @@ ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, co
     add(Unknown::fraction, 1.0, fraction);
     parameter_end_ = 1.0e6;  // never reached: the root `path_end` comes first
   }
+}
+
+bool ModeProblem::stiff() const {
+  if (mode_.decohering() && mode_.viscous) return true;
+  return mode_.flowing && norm(path_.strain) > 20.0 * norm(deviator(start_.elastic_strain));
 }
 
 void ModeProblem::initial(double* y) const {
@@ -183,6 +190,15 @@ void ModeProblem::settle(double parameter, double* y) const {
       default:
         break;
     }
+  }
+}
+
+void ModeProblem::absolute_tolerances(double relative, double absolute, double* tolerances) const {
+  for (std::size_t i = 0; i < size_; ++i) {
+    const Unknown u = unknowns_[i];
+    const bool alone = u == Unknown::plastic_strain || u == Unknown::crack_density || u == Unknown::decohesion ||
+                       u == Unknown::fraction;
+    tolerances[i] = alone ? absolute : absolute + relative;
   }
 }
 

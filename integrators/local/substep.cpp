@@ -121,8 +121,10 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
   bool finite = true;
   double t = 0.0;
   Vector f = stepper.rates(t, y, finite);
+  Vector absolute(n);
+  problem.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
   const auto weighted = [&](const Vector& error, const Vector& at) {
-    return (error.array().abs() / (tolerance().relative * at.array().abs() + tolerance().absolute))
+    return (error.array().abs() / (tolerance().relative * at.array().abs() + absolute.array()))
         .maxCoeff();
   };
   const double end = problem.parameter_end();

@@ -30,6 +30,8 @@ CvodeSolver::CvodeSolver(const Context& context, std::size_t size, CvodeMethod m
   vector_.reset(N_VNew_Serial(n, context.get()));
   require(vector_ != nullptr, "vector");
   N_VConst(0.0, vector_.get());
+  tolerances_.reset(N_VClone(vector_.get()));
+  require(tolerances_ != nullptr, "tolerances");
   memory_.reset(CVodeCreate(method == CvodeMethod::bdf ? CV_BDF : CV_ADAMS, context.get()));
   require(memory_ != nullptr, "memory");
   void* m = memory_.get();
@@ -63,7 +65,8 @@ auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings
   CVodeSetUserData(m, &system);
   result.flag = CVodeReInit(m, 0.0, v);
   if (result.failed()) return result;
-  CVodeSStolerances(m, settings.relative, settings.absolute);
+  std::copy(settings.absolute, settings.absolute + n, N_VGetArrayPointer(tolerances_.get()));
+  CVodeSVtolerances(m, settings.relative, tolerances_.get());
   CVodeSetMaxNumSteps(m, settings.most_steps);
   CVodeSetMaxStep(m, settings.longest_step);
   CVodeSetInitStep(m, settings.first_step);

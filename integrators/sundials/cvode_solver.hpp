@@ -35,7 +35,8 @@ class CvodeSolver {
   CvodeSolver(const Context& context, std::size_t size, CvodeMethod method);
 
   struct Settings {
-    double relative, absolute;  ///< tolerances (the same for every unknown: they are scaled)
+    double relative;         ///< tolerance
+    const double* absolute;  ///< tolerance of each unknown
     double longest_step;
     double first_step;  ///< 0: CVODE's own estimate
     long most_steps;
@@ -65,7 +66,7 @@ class CvodeSolver {
   template <class Handle, auto free>
   using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Freed<free>>;
 
-  Owned<N_Vector, N_VDestroy> vector_;
+  Owned<N_Vector, N_VDestroy> vector_, tolerances_;
   Owned<SUNMatrix, SUNMatDestroy> matrix_;
   Owned<SUNLinearSolver, SUNLinSolFree> linear_;
   Owned<SUNNonlinearSolver, SUNNonlinSolFree> fixed_point_;
