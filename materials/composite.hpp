@@ -159,7 +159,7 @@ class Composite final : public Material {
   bool at_strength(const EvolutionMode& mode, const PointState& s) const;
   void set_branch(EvolutionMode& mode, const PointState& s) const;
   void choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
-                   bool may_open) const;
+                   bool may_open, bool surface_reached) const;
   void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
   bool falls_through(const EvolutionMode& mode, const PointState& s) const;
   bool localises(const EvolutionMode& mode, const PointState& s) const;

@@ -72,7 +72,8 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
   choose(mode, root, s, path, fraction, report);
   if (root != Root::side) {
     mode.sliding = false;
-  } else if (const double rate = trace(rates(mode, s, path).elastic_strain); mode.tension ? rate < 0.0 : rate > 0.0) {
+  } else if (const double rate = trace(rates(mode, s, path).elastic_strain);
+             mode.tension ? rate < 0.0 : rate > 0.0) {
     mode.tension = !mode.tension;
     mode.sliding = true;
     choose(mode, root, s, path, fraction, report);
@@ -96,7 +97,7 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
     const bool may_flow = root != Root::unload && on_surface(mode, s, root == Root::yield);
     const bool may_open = root != Root::stall && at_strength(mode, s);
     set_branch(mode, s);
-    choose_flow(mode, s, path, may_flow, may_open);
+    choose_flow(mode, s, path, may_flow, may_open, root == Root::yield);
     if constexpr (C) {
       if (mode.decohering() && !mode.viscous && !(rates(mode, s, path).fraction > 0.0)) {
         release_plane(mode, s, fraction, report);
@@ -199,7 +200,7 @@ void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const PointState& s) co
 /// Of flow and decohesion, those that go forward: both together, then each alone.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path,
-                                     bool may_flow, bool may_open) const {
+                                     bool may_flow, bool may_open, bool surface_reached) const {
   using Plane = EvolutionMode::Plane;
   if constexpr (C) {
     mode.viscous = decohesion_.viscosity() > 0.0;
@@ -239,7 +240,8 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     }
     const EvolutionRates r = rates(mode, s, path);
     if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
-    if (mode.flowing && !(r.plastic_strain > 0.0) && !falls) mode.flowing = false;
+    // (A path that has just reached the surface leaves it outwards, whatever rounding makes of the angle.)
+    if (mode.flowing && !(r.plastic_strain > 0.0) && !falls && !surface_reached) mode.flowing = false;
   }
 }
 

@@ -33,7 +33,8 @@ struct EvolutionMode {
   bool flowing = false;   ///< on the yield surface
   bool pulled = false;    ///< decohering under tensile normal traction (otherwise by shear alone)
   bool viscous = false;   ///< decohering with a viscosity
-  bool sliding = false;   ///< held at zero mean strain, which either side leads back to: keeps the side it came from
+  bool sliding =
+      false;  ///< held at zero mean strain, which either side leads back to: keeps the side it came from
   Plane plane = Plane::intact;
   double coefficient = 0.0;                                     ///< C(R) of eq. 7
   double hardening_modulus = 0.0;                               ///< h of eq. 21 on the present branch, Pa

@@ -73,9 +73,9 @@ bool Cvode::solve(const ModeProblem& problem, double* y, Stop& stop, PointReport
     if (attempt > 2) a.end = a.first_step = scale / static_cast<double>(1 << (attempt - 2));
     if (attempt > 2) a.first_step *= 1e-10;
     std::copy(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n), y);
-    result = bundle.solver(n, a.method)
-                 .solve(system, y, a.end,
-                        {tolerance().relative, absolute.data(), scale, a.first_step, 20'000});
+    result =
+        bundle.solver(n, a.method)
+            .solve(system, y, a.end, {tolerance().relative, absolute.data(), scale, a.first_step, 20'000});
     report.solver.steps += result.steps;
     report.solver.right_hand_sides += result.right_hand_sides;
     if (!result.failed()) {

@@ -196,8 +196,8 @@ void ModeProblem::settle(double parameter, double* y) const {
 void ModeProblem::absolute_tolerances(double relative, double absolute, double* tolerances) const {
   for (std::size_t i = 0; i < size_; ++i) {
     const Unknown u = unknowns_[i];
-    const bool alone = u == Unknown::plastic_strain || u == Unknown::crack_density || u == Unknown::decohesion ||
-                       u == Unknown::fraction;
+    const bool alone = u == Unknown::plastic_strain || u == Unknown::crack_density ||
+                       u == Unknown::decohesion || u == Unknown::fraction;
     tolerances[i] = alone ? absolute : absolute + relative;
   }
 }

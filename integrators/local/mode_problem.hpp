@@ -18,8 +18,9 @@ class ModeProblem {
   double parameter_end() const { return parameter_end_; }
   /// Longest sensible step.
   double parameter_scale() const { return 1.0 - start_fraction_; }
-  /// Whether the rates relax much faster than the path goes: decohesion with a viscosity, and plastic flow whose stress
-  /// turns to the direction of the strain within a small part of the path (2G |eps'| >> |s|: nearly no strength left).
+  /// Whether the rates relax much faster than the path goes: decohesion with a viscosity, and plastic flow
+  /// whose stress turns to the direction of the strain within a small part of the path (2G |eps'| >> |s|:
+  /// nearly no strength left).
   bool stiff() const;
 
   void initial(double* y) const;
@@ -35,8 +36,9 @@ class ModeProblem {
   double fraction(double parameter, const double* y) const;
   /// Energies dissipated since the start of the mode, J/m^3.
   Dissipation dissipation(const double* y) const;
-  /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are judged by the
-  /// size of the whole, which their scale is: a component that happens to vanish needs no more digits than the others.
+  /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are
+  /// judged by the size of the whole, which their scale is: a component that happens to vanish needs no more
+  /// digits than the others.
   void absolute_tolerances(double relative, double absolute, double* tolerances) const;
   /// Name of an unknown, for messages.
   const char* name(std::size_t unknown) const;

@@ -124,8 +124,7 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
   Vector absolute(n);
   problem.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
   const auto weighted = [&](const Vector& error, const Vector& at) {
-    return (error.array().abs() / (tolerance().relative * at.array().abs() + absolute.array()))
-        .maxCoeff();
+    return (error.array().abs() / (tolerance().relative * at.array().abs() + absolute.array())).maxCoeff();
   };
   const double end = problem.parameter_end();
   const double longest = problem.parameter_scale(), shortest = 1e-15 * longest;

@@ -1,6 +1,7 @@
 // The ODE forms of the laws, integrated by the substepper and by CVODE, against closed forms and each other.
+#include <chrono>
+#include <cstdio>
 #include <memory>
-#include <numbers>
 
 #include "catch.hpp"
 #include "integrators/local/cvode.hpp"
@@ -295,5 +296,78 @@ TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solv
     CHECK(solves_of(separated, {1e-3, 0, 0, 0}) == 0);
     CHECK(solves_of(separated, {-2e-2, 0, 0, 0}) == 0);
     CHECK(solves_of({}, {1.6e-3, 0, 0, 0}) > 0);
+  }
+}
+
+TEST_CASE("Drucker-Prager under proportional shear with growing pressure, for every tolerance",
+          "[local][verification]") {
+  MaterialParameters p = bare_glass();
+  p.drucker_prager = glass_drucker_prager();
+  const auto glass = make_material(p, cell);
+  const Moduli m = elastic_moduli(p.elastic);
+  const SymmetricTensor n = Random(8).deviatoric_direction();
+  const double shear = 4.0e-3, volume = -3.0e-4;
+  const double pressure = -m.bulk * 3.0 * volume, q = 43.0e6 + 1.8 * pressure;
+  const double elastic = q / (2.0 * m.shear * std::sqrt(1.5));
+  // f = 0 where 2G sqrt(3/2) shear s = sigma_y + beta P s.
+  const double yields = 43.0e6 / (2.0 * m.shear * std::sqrt(1.5) * shear - 1.8 * pressure);
+  climb([&](LocalIntegrator& integrator) {
+    const Driven d = drive(*glass, {{shear * n + volume * identity(), 1e-6}}, 1, {}, &integrator);
+    return std::max({relative(norm(deviator(d.state.elastic_strain)), elastic),
+                     relative(d.state.plastic_strain, shear - elastic),
+                     relative(d.time_of(EventKind::yield), 1e-6 * yields)});
+  });
+}
+
+// Run by hand: tests_verification "[work-precision]" prints the table of docs/findings.md.
+TEST_CASE("work and precision of the three methods", "[.][work-precision]") {
+  struct Work {
+    const char* name;
+    MaterialParameters material;
+    std::vector<Segment> before, increment;
+  };
+  MaterialParameters viscous = fracturing_glass();
+  viscous.decohesion->viscosity = 1e-9;
+  const double r = 3.0e3;
+  const std::vector<Work> works{
+      {"elastic", fracturing_glass(), {}, {{{-1e-4, 0, 0, 2e-5}, 1e-7}}},
+      {"damaging",
+       fracturing_glass(),
+       {{{1.1e-3, 1e-5, 0, 0}, 1.1e-3 / r}},
+       {{{2e-4, 1e-5, 0, 3e-5}, 2e-4 / r}}},
+      {"plastic", flowing_steel(), {{{2e-3, -1e-3, -1e-3, 0}, 1e-6}}, {{{1e-4, 0, -1e-4, 3e-4}, 1e-7}}},
+      {"decohering", fracturing_glass(), {{{2e-3, 0, 0, 0}, 2e-3 / r}}, {{{3e-4, 0, 0, 2e-4}, 3e-4 / r}}},
+      {"viscous", viscous, {{{2e-3, 0, 0, 0}, 2e-3 / r}}, {{{3e-4, 0, 0, 2e-4}, 3e-4 / r}}},
+  };
+  std::printf("| increment | method | tolerance or steps | error | us |\n|---|---|---|---|---|\n");
+  for (const Work& work : works) {
+    const auto material = make_material(work.material, cell);
+    Cvode tight({1e-13, 1e-15}, CvodeFamily::bdf);
+    const PointState start =
+        work.before.empty() ? PointState{} : drive(*material, work.before, 1, {}, &tight).state;
+    const Driven reference = drive(*material, work.increment, 1, start, &tight);
+    const double scale = std::max(norm(reference.state.stress - start.stress), 1.0);
+    const auto measure = [&](const std::string& method, const std::string& setting,
+                             PointIntegrator* integrator, int steps) {
+      std::vector<double> times;
+      Driven d;
+      for (int repeat = 0; repeat < 5; ++repeat) {
+        constexpr int runs = 200;
+        const auto begun = std::chrono::steady_clock::now();
+        for (int i = 0; i < runs; ++i) d = drive(*material, work.increment, steps, start, integrator);
+        times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() /
+                        runs);
+      }
+      std::sort(times.begin(), times.end());
+      std::printf("| %s | %s | %s | %.1e | %.2f |\n", work.name, method.c_str(), setting.c_str(),
+                  distance(d.state.stress, reference.state.stress) / scale, 1e6 * times[2]);
+    };
+    for (const int steps : {1, 10, 100}) measure("closed-form", std::to_string(steps), nullptr, steps);
+    for (const double rtol : {1e-3, 1e-4, 1e-6, 1e-8, 1e-10})
+      for (const Solver& solver : solvers(rtol)) {
+        char text[16];
+        std::snprintf(text, sizeof text, "%.0e", rtol);
+        measure(solver.name, text, solver.integrator.get(), 1);
+      }
   }
 }
