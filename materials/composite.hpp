@@ -34,6 +34,8 @@ class Composite final : public Material {
              PointReport& report) const override;
   EvolutionRates rates(const EvolutionMode& mode, const PointState& state,
                        const StrainPath& path) const override;
+  OpeningJacobian opening_jacobian(const EvolutionMode& mode, const PointState& state,
+                                   const StrainPath& path) const override;
   void events(const EvolutionMode& mode, const PointState& state, const StrainPath& path,
               EventFunctions& functions) const override;
   void settle(const EvolutionMode& mode, PointState& state, const StrainPath& path) const override;

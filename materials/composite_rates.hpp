@@ -155,6 +155,39 @@ EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const PointS
   return r;
 }
 
+template <bool D, Yielding Y, bool C>
+OpeningJacobian Composite<D, Y, C>::opening_jacobian([[maybe_unused]] const EvolutionMode& mode,
+                                                     [[maybe_unused]] const PointState& s,
+                                                     [[maybe_unused]] const StrainPath& path) const {
+  OpeningJacobian J{};
+  if constexpr (C) {
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const PlaneTraction t = traction({s.normal_r, s.normal_z}, s.elastic_strain, m);
+    const PlaneDrive drive = decohesion_.drive(t.normal, t.tangential, mode.pulled);
+    const double N = drive.traction;
+    if (!(N > 0.0)) return J;
+    const double u0 = decohesion_.reference_opening(), L = s.effective_length;
+    const double per_traction = path.duration / (decohesion_.viscosity() * s.cohesive_strength);
+    const double opening_rate = per_traction * (N - decohesion_.strength(s.decohesion, s.cohesive_strength));
+    // Openings unload: d tau_i / d w_i = -Q_i / L, and N' = m . tau'.
+    const double qn = -t.normal_stiffness / L, qt = -t.tangential_stiffness / L;
+    const std::array<double, 3> of_N{0.0, drive.normal * qn, drive.tangential * qt};
+    const double c = 1.0 / (decohesion_.parameters().mode_ratio * decohesion_.parameters().mode_ratio);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double of_strength = j == 0 ? decohesion_.strength_slope(s.decohesion, s.cohesive_strength) : 0.0;
+      const double of_rate = per_traction * (of_N[j] - of_strength);
+      // m = (tau_n, c tau_t) / N
+      const double of_normal = ((j == 1 && mode.pulled ? qn : 0.0) - drive.normal * of_N[j]) / N;
+      const double of_tangential = ((j == 2 ? c * qt : 0.0) - drive.tangential * of_N[j]) / N;
+      J[0][j] = of_rate;
+      J[1][j] = u0 * (drive.normal * of_rate + of_normal * opening_rate);
+      J[2][j] = u0 * (drive.tangential * of_rate + of_tangential * opening_rate);
+      J[3][j] = u0 / L * (N * of_rate + of_N[j] * opening_rate);
+    }
+  }
+  return J;
+}
+
 /// <= 0 where softening flow admits a discontinuity (H >= H_cr, eq. 25).
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::flow_localisation(const PointState& s, const Moduli& m, double modulus) const {

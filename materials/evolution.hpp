@@ -57,6 +57,10 @@ struct EvolutionRates {
   double plastic = 0.0, damage = 0.0, fracture = 0.0;  ///< dissipation, J/m^3
 };
 
+/// How the rates of a decohering plane (without flow) depend on what the plane has done: rows lambda, normal
+/// and tangential opening (m), fracture energy (J/m^3); columns lambda, normal and tangential opening.
+using OpeningJacobian = std::array<std::array<double, 3>, 4>;
+
 /// What may end a mode.
 enum class Root : unsigned char {
   side,          ///< the mean elastic strain changes sign

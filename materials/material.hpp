@@ -147,6 +147,9 @@ class Material {
                      double fraction, PointReport& report) const = 0;
   virtual EvolutionRates rates(const EvolutionMode& mode, const PointState& state,
                                const StrainPath& path) const = 0;
+  /// d(rates)/d(state) of a plane that decoheres with a viscosity, without plastic flow.
+  virtual OpeningJacobian opening_jacobian(const EvolutionMode& mode, const PointState& state,
+                                           const StrainPath& path) const = 0;
   /// Event functions of the mode.
   virtual void events(const EvolutionMode& mode, const PointState& state, const StrainPath& path,
                       EventFunctions& functions) const = 0;

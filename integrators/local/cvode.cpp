@@ -32,6 +32,8 @@ class ModeSystem final : public sundials::OdeSystem {
   explicit ModeSystem(const ModeProblem& problem) : problem_(problem) {}
 
   bool rates(double t, const double* y, double* out) override { return problem_.rates(t, y, out); }
+  bool has_jacobian() const override { return problem_.has_jacobian(); }
+  void jacobian(double t, const double* y, double* columns) override { problem_.jacobian(t, y, columns); }
   void roots(double t, const double* y, double* values) override {
     EventFunctions g;
     problem_.events(t, y, g);

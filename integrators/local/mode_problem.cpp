@@ -152,6 +152,14 @@ bool ModeProblem::rates(double parameter, const double* y, double* out) const {
   return std::isfinite(sum);
 }
 
+void ModeProblem::jacobian(double parameter, const double* y, double* columns) const {
+  // Unknowns of this mode: lambda, normal and tangential opening, fracture energy.
+  const OpeningJacobian J = material_.opening_jacobian(mode_, state(parameter, y), path_);
+  for (std::size_t j = 0; j < size_; ++j)
+    for (std::size_t i = 0; i < size_; ++i)
+      columns[j * size_ + i] = j < 3 ? J[i][j] * scales_[j] / scales_[i] : 0.0;
+}
+
 void ModeProblem::events(double parameter, const double* y, EventFunctions& functions) const {
   material_.events(mode_, state(parameter, y), path_, functions);
   if (fraction_is_unknown_) functions.add(Root::path_end, fraction(parameter, y) - 1.0);

@@ -26,6 +26,10 @@ class ModeProblem {
   void initial(double* y) const;
   /// Writes size() rates. False where they are not finite.
   bool rates(double parameter, const double* y, double* rates) const;
+  /// d(rates)/dy by columns, size() x size(), where the law gives it in closed form (decohesion with a
+  /// viscosity alone).
+  bool has_jacobian() const { return mode_.decohering() && mode_.viscous && !mode_.flowing; }
+  void jacobian(double parameter, const double* y, double* columns) const;
   void events(double parameter, const double* y, EventFunctions& functions) const;
 
   /// Drift correction: moves y onto the surfaces that the mode keeps to.

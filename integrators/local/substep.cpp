@@ -65,6 +65,10 @@ class Stepper {
 
   Matrix jacobian(double t, const Vector& y, const Vector& f0, bool& finite) {
     Matrix J(y.size(), y.size());
+    if (problem_.has_jacobian()) {
+      problem_.jacobian(t, y.data(), J.data());
+      return J;
+    }
     for (Eigen::Index j = 0; j < y.size(); ++j) {
       Vector moved = y;
       const double change = 1e-8 * std::max(std::abs(y[j]), 1e-3);

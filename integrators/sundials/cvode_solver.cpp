@@ -14,6 +14,11 @@ int right_hand_side(sunrealtype t, N_Vector y, N_Vector rates, void* system) {
   return finite ? 0 : 1;
 }
 
+int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* system, N_Vector, N_Vector, N_Vector) {
+  static_cast<OdeSystem*>(system)->jacobian(t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
+  return 0;
+}
+
 int root_functions(sunrealtype t, N_Vector y, sunrealtype* values, void* system) {
   static_cast<OdeSystem*>(system)->roots(t, N_VGetArrayPointer(y), values);
   return 0;
@@ -67,6 +72,7 @@ auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings
   if (result.failed()) return result;
   std::copy(settings.absolute, settings.absolute + n, N_VGetArrayPointer(tolerances_.get()));
   CVodeSVtolerances(m, settings.relative, tolerances_.get());
+  if (linear_) CVodeSetJacFn(m, system.has_jacobian() ? jacobian : nullptr);
   CVodeSetMaxNumSteps(m, settings.most_steps);
   CVodeSetMaxStep(m, settings.longest_step);
   CVodeSetInitStep(m, settings.first_step);

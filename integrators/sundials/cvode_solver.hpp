@@ -19,6 +19,10 @@ class OdeSystem {
   virtual ~OdeSystem() = default;
   /// False: not finite (CVODE then tries a shorter step).
   virtual bool rates(double t, const double* y, double* rates) = 0;
+  /// Whether d(rates)/dy is known; otherwise CVODE takes difference quotients.
+  virtual bool has_jacobian() const = 0;
+  /// Fills its columns.
+  virtual void jacobian(double t, const double* y, double* columns) = 0;
   /// Fills `CvodeSolver::roots` functions that cross zero upwards where an event happens.
   virtual void roots(double t, const double* y, double* values) = 0;
 };

@@ -30,6 +30,10 @@ class DescribedMaterial final : public Material {
   EvolutionRates rates(const EvolutionMode&, const PointState&, const StrainPath&) const override {
     return {};
   }
+  OpeningJacobian opening_jacobian(const EvolutionMode&, const PointState&,
+                                   const StrainPath&) const override {
+    return {};
+  }
   void events(const EvolutionMode&, const PointState&, const StrainPath&, EventFunctions&) const override {}
   void settle(const EvolutionMode&, PointState&, const StrainPath&) const override {}
   void respond(const ParticleColumns&, std::size_t, std::size_t, double, PointIntegrator*,

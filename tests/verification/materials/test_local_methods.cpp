@@ -319,6 +319,79 @@ TEST_CASE("Drucker-Prager under proportional shear with growing pressure, for ev
   });
 }
 
+TEST_CASE("on random paths with reversals the error stays within 100 rtol over the whole ladder",
+          "[local][verification]") {
+  // Against CVODE at 1e-12. Stresses relative to the largest of the path, times to the duration of the path.
+  std::vector<NamedMaterial> materials{{"damage", damaging_glass()}, {"decohesion", fracturing_glass()}};
+  materials.push_back({"von Mises", flowing_steel()});
+  materials.push_back({"Drucker-Prager", bare_glass()});
+  materials.back().parameters.drucker_prager = glass_drucker_prager();
+  Random random(77);
+  for (const NamedMaterial& named : materials) {
+    const auto material = make_material(named.parameters, cell);
+    for (int sample = 0; sample < 6; ++sample) {
+      const std::vector<Segment> path = random_path(random, 2e-3, 1e4, 5);
+      CAPTURE(named.name, sample);
+      double duration = 0.0;
+      for (const Segment& segment : path) duration += segment.duration;
+      Cvode tight({1e-12, 1e-15}, CvodeFamily::bdf);
+      const Driven exact = drive(*material, path, 1, {}, &tight);
+      REQUIRE(exact.cause == "");
+      const double scale = elastic_moduli(named.parameters.elastic).p_wave() * 2e-3;
+      for (std::size_t k = 0; k < 2; ++k)
+        for (const double rtol : ladder) {
+          const Solver solver = std::move(solvers(rtol)[k]);
+          CAPTURE(solver.name, rtol);
+          const Driven d = drive(*material, path, 1, {}, solver.integrator.get());
+          REQUIRE(d.cause == "");
+          CHECK(distance(d.state.stress, exact.state.stress) <= 100.0 * rtol * scale);
+          CHECK(d.events.size() == exact.events.size());
+          for (std::size_t i = 0; i < std::min(d.events.size(), exact.events.size()); ++i)
+            CHECK(std::abs(d.events[i].time - exact.events[i].time) <= 100.0 * rtol * duration);
+        }
+    }
+  }
+}
+
+TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][verification]") {
+  Random random(99);
+  MaterialParameters p = fracturing_glass();
+  p.decohesion->viscosity = 1e-9;
+  const auto glass = make_material(p, cell);
+  const PointState onset = drive(*glass, {{{1.7e-3, 0, 0, 4e-4}, 6e-7}}, 1).state;
+  REQUIRE(is_localised(onset));
+  for (int sample = 0; sample < 200; ++sample) {
+    PointState s = onset;
+    s.decohesion = random.uniform(0.05, 0.9);
+    s.elastic_strain += 3e-4 * random.direction();
+    EvolutionMode mode;
+    mode.plane = EvolutionMode::Plane::decohering;
+    mode.tension = mode.viscous = true;
+    mode.pulled = random.chance(0.8);
+    const StrainPath path{2e-4 * random.direction(), 1e-7};
+    const OpeningJacobian J = glass->opening_jacobian(mode, s, path);
+    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const auto rates_after = [&](std::size_t j, double change) {
+      PointState moved = s;
+      if (j == 0) moved.decohesion += change;
+      if (j == 1) moved.elastic_strain -= plane.jump_strain(change, 0.0, s.effective_length);
+      if (j == 2) moved.elastic_strain -= plane.jump_strain(0.0, change, s.effective_length);
+      const EvolutionRates r = glass->rates(mode, moved, path);
+      return std::array<double, 4>{r.decohesion, r.opening_n, r.opening_t, r.fracture};
+    };
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double h = j == 0 ? 1e-6 : 1e-11;
+      const auto up = rates_after(j, h), down = rates_after(j, -h);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double difference = (up[i] - down[i]) / (2.0 * h);
+        const double size = std::abs(J[i][0]) * (j == 0 ? 1.0 : 2e5) + std::abs(J[i][j]);
+        CAPTURE(sample, i, j);
+        CHECK(std::abs(J[i][j] - difference) <= 1e-4 * size + 1e-9 * std::abs(up[i]) / h);
+      }
+    }
+  }
+}
+
 // Run by hand: tests_verification "[work-precision]" prints the table of docs/findings.md.
 TEST_CASE("work and precision of the three methods", "[.][work-precision]") {
   struct Work {
