@@ -3,6 +3,7 @@
 #include "materials/composite_batch.hpp"
 #include "materials/composite_intact.hpp"
 #include "materials/composite_localised.hpp"
+#include "materials/composite_tangent.hpp"
 
 namespace vitrum {
 namespace {

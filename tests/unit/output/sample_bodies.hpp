@@ -26,6 +26,12 @@ class DescribedMaterial final : public Material {
   void respond(const ParticleColumns&, std::size_t, std::size_t, double, BatchReport&) const override {
     throw std::logic_error("not for output");
   }
+  TangentEntries tangent(const PointState&, const SymmetricTensor&, double) const override {
+    throw std::logic_error("not for output");
+  }
+  void tangent(const ParticleColumns&, std::size_t, std::size_t, double, TangentEntries*) const override {
+    throw std::logic_error("not for output");
+  }
   Moduli secant_moduli(const PointState&) const override { throw std::logic_error("not for output"); }
 
  private:
