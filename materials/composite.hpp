@@ -39,6 +39,10 @@ class Composite final : public Material {
   void events(const EvolutionMode& mode, const PointState& state, const StrainPath& path,
               EventFunctions& functions) const override;
   void settle(const EvolutionMode& mode, PointState& state, const StrainPath& path) const override;
+  TangentEntries tangent(const PointState& state, const SymmetricTensor& strain_increment,
+                         double duration) const override;
+  void tangent(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
+               TangentEntries* tangents) const override;
   Moduli secant_moduli(const PointState& s) const override {
     return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
   }

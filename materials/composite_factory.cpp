@@ -5,6 +5,7 @@
 #include "materials/composite_localised.hpp"
 #include "materials/composite_modes.hpp"
 #include "materials/composite_rates.hpp"
+#include "materials/composite_tangent.hpp"
 
 namespace vitrum {
 namespace {

@@ -115,6 +115,9 @@ class PointIntegrator {
                          double duration, PointReport& report) = 0;
 };
 
+/// A tangent by rows: entry (i, j) is [4 i + j].
+using TangentEntries = std::array<double, 16>;
+
 /// One point's constitutive law: isotropic elasticity + optional damage + optional plasticity + optional
 /// decohesion. Pure functions of (state, increment) to (state, stress); a material owns no particle and knows
 /// no grid.
@@ -156,6 +159,15 @@ class Material {
   /// Drift correction: puts a state that was integrated with errors back onto the yield surface, the strength
   /// of the plane, and traction-free faces.
   virtual void settle(const EvolutionMode& mode, PointState& state, const StrainPath& path) const = 0;
+  /// Consistent tangent: d stress(end) / d strain_increment of `respond`, the duration held. 4 x 4 by rows,
+  /// order and shear convention as in materials/tangent.hpp, in the frame that turns with the material. Where
+  /// the response jumps (a snap-back inside the stencil of differences) there is no derivative, and the
+  /// secant of the end stands in. Always finite for finite input.
+  virtual TangentEntries tangent(const PointState& state, const SymmetricTensor& strain_increment,
+                                 double duration) const = 0;
+  /// The same for particles [begin, end) whose columns hold the state at the start of the increment.
+  virtual void tangent(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
+                       TangentEntries* tangents) const = 0;
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   virtual Moduli secant_moduli(const PointState& state) const = 0;
   /// Scalar damage D of eq. 8 (0 without a damage model).

@@ -40,6 +40,12 @@ class DescribedMaterial final : public Material {
                BatchReport&) const override {
     throw std::logic_error("not for output");
   }
+  TangentEntries tangent(const PointState&, const SymmetricTensor&, double) const override {
+    throw std::logic_error("not for output");
+  }
+  void tangent(const ParticleColumns&, std::size_t, std::size_t, double, TangentEntries*) const override {
+    throw std::logic_error("not for output");
+  }
   Moduli secant_moduli(const PointState&) const override { throw std::logic_error("not for output"); }
 
  private:
