@@ -75,11 +75,10 @@ bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTenso
 
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::load(const ParticleColumns& p, std::size_t i, PointState& s) const {
-  s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i],
-                      p.elastic_strain[3][i]};
+  s.elastic_strain = {p.start_strain[0][i], p.start_strain[1][i], p.start_strain[2][i], p.start_strain[3][i]};
   for_own_variables([&](Variable v) {
     const auto k = static_cast<std::size_t>(v);
-    s.*variable_members[k] = p.variables[k][i];
+    s.*variable_members[k] = p.start_variables[k][i];
   });
 }
 
@@ -87,7 +86,7 @@ template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const {
   for_own_variables([&](Variable v) {
     const auto k = static_cast<std::size_t>(v);
-    p.variables[k][i] = s.*variable_members[k];
+    if (p.variables[k] != nullptr) p.variables[k][i] = s.*variable_members[k];
   });
 }
 

@@ -74,12 +74,15 @@ struct ParticleEvent {
   Event event;
 };
 
-/// Pointers to the columns of a range of particles (structure of arrays); null where the material has no such
-/// variable.
+/// Pointers to the columns of a range of particles (structure of arrays). The state at the start of the
+/// increment is only read; that at its end may go to the same columns (the increment is committed) or to others
+/// (it is tried).
 struct ParticleColumns {
-  std::array<double*, 4> elastic_strain{};          ///< components rr, zz, tt, rz
-  std::array<double*, 4> stress{};                  ///< Pa
-  std::array<double*, variable_count> variables{};  ///< by Variable
+  std::array<const double*, 4> start_strain{};                  ///< elastic: rr, zz, tt, rz
+  std::array<const double*, variable_count> start_variables{};  ///< by Variable; null: the material has none
+  std::array<double*, 4> elastic_strain{};                      ///< at the end
+  std::array<double*, 4> stress{};                              ///< at the end, Pa
+  std::array<double*, variable_count> variables{};              ///< at the end; null: not stored
   std::array<const double*, 4>
       strain_increment{};                  ///< in the frame that turns with the particle (corotational)
   const double* spin_increment = nullptr;  ///< rad, counter-clockwise from r to z

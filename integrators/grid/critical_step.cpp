@@ -12,7 +12,7 @@ double stability_limit(StepScheme scheme) {
   return scheme == StepScheme::usl ? 0.5 : 1.0 / std::numbers::sqrt2;
 }
 
-CriticalStep critical_step(const System& system, StepScheme scheme) {
+CriticalStep critical_step(const System& system, double limit) {
   CriticalStep result{std::numeric_limits<double>::infinity(), 0.0, 0.0, ""};
   for (const Body& body : system.bodies) {
     const Particles& p = body.particles;
@@ -20,7 +20,7 @@ CriticalStep critical_step(const System& system, StepScheme scheme) {
     for (std::size_t i = 0; i < p.size; ++i)
       largest = std::max(largest, p.velocity[0][i] * p.velocity[0][i] + p.velocity[1][i] * p.velocity[1][i]);
     const double c = body.material->wave_speed(), v = std::sqrt(largest);
-    const double step = stability_limit(scheme) * system.cell / (c + v);
+    const double step = limit * system.cell / (c + v);
     if (step < result.step) result = {step, c, v, body.name};
   }
   return result;

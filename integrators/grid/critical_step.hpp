@@ -20,7 +20,7 @@ struct CriticalStep {
 /// leave a node nearly empty).
 double stability_limit(StepScheme scheme);
 
-/// stability_limit x cell / (wave speed + fastest particle), the least over all bodies.
-CriticalStep critical_step(const System& system, StepScheme scheme);
+/// limit (steps per h / (c + |v|)) x cell / (wave speed + fastest particle), the least over all bodies.
+CriticalStep critical_step(const System& system, double limit);
 
 }  // namespace vitrum

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
@@ -56,6 +57,7 @@ void ExplicitIntegrator::count(double duration) {
   c.step_max = std::max(c.step_max, duration);
   ++c.steps;
   ++c.rhs_evaluations;
+  c.last_limit = StepLimit::fixed;
 }
 
 bool ExplicitIntegrator::advance(System& system, double target, StepObserver& observer) {
@@ -74,7 +76,10 @@ bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserv
   while (state_.segment_done < state_.segment_steps) {
     take_step(system, duration);
     count(duration);
-    if (duration < *step_ * (1.0 - 1e-6)) ++state_.counters.limited_by_output;
+    if (duration < *step_ * (1.0 - 1e-6)) {
+      ++state_.counters.limited_by_output;
+      state_.counters.last_limit = StepLimit::output;
+    }
     ++state_.segment_done;
     const bool last = state_.segment_done == state_.segment_steps;
     system.time = last ? target : state_.segment_start + duration * static_cast<double>(state_.segment_done);
@@ -87,7 +92,7 @@ bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserv
 
 bool ExplicitIntegrator::advance_courant(System& system, double target, StepObserver& observer) {
   while (system.time < target) {
-    const CriticalStep critical = critical_step(system, scheme_);
+    const CriticalStep critical = critical_step(system, stability_limit(scheme_));
     const double stable = *courant_ * critical.step;
     // Particles that run away shrink the step without end: a hang, unless it is called what it is.
     if (!(critical.travel_speed < 1e6 * critical.wave_speed))
@@ -105,11 +110,26 @@ bool ExplicitIntegrator::advance_courant(System& system, double target, StepObse
     const double duration = last ? left : (left < 2.0 * stable ? 0.5 * left : stable);
     take_step(system, duration);
     count(duration);
-    ++(duration < stable ? state_.counters.limited_by_output : state_.counters.limited_by_stability);
+    const bool cut = duration < stable;
+    ++(cut ? state_.counters.limited_by_output : state_.counters.limited_by_stability);
+    state_.counters.last_limit = cut ? StepLimit::output : StepLimit::stability;
     system.time = last ? target : system.time + duration;
     if (!observer.step_done(system, duration)) return last;
   }
   return true;
+}
+
+std::string ExplicitIntegrator::advice(const System& system, double step) const {
+  // The critical step of the scene's own speeds: those of a run that has blown up would tell nothing.
+  double critical = std::numeric_limits<double>::infinity();
+  for (const Body& body : system.bodies)
+    critical = std::min(critical, stability_limit(scheme_) * system.cell / body.material->wave_speed());
+  // Below a step that has just failed, however small that was.
+  const double advised = step > 0.0 ? std::min(0.4 * critical, 0.5 * step) : 0.4 * critical;
+  return fmt::format(
+      "the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try integrator.step = "
+      "{:.2g} or integrator.courant = {:.2g}",
+      step, step / critical, critical, advised, advised / critical);
 }
 
 }  // namespace vitrum

@@ -17,6 +17,7 @@ class ExplicitIntegrator final : public GridIntegrator {
   bool advance(System& system, double target, StepObserver& observer) override;
   const IntegratorState& state() const override { return state_; }
   void restore(const IntegratorState& state) override { state_ = state; }
+  std::string advice(const System& system, double step) const override;
 
  private:
   void take_step(System& system, double duration) const;

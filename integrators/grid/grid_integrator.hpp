@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
+#include "integrators/grid/step_limit.hpp"
 #include "mpm/system.hpp"
 
 namespace vitrum {
@@ -10,6 +12,16 @@ struct IntegratorCounters {
   std::int64_t steps = 0, rejected = 0, rhs_evaluations = 0, newton_iterations = 0, factorisations = 0;
   double step_min = 0.0, step_max = 0.0;  ///< s; 0 before the first step
   std::int64_t limited_by_stability = 0, limited_by_accuracy = 0, limited_by_output = 0;
+  StepLimit last_limit = StepLimit::fixed;  ///< of the last step
+};
+
+/// Sums over all steps of the estimated local error, a root mean square over the unknowns of a group, relative
+/// to the scale of the group (not to the tolerance). Methods that make no estimate leave zeros.
+struct ErrorEstimate {
+  double position = 0.0;  ///< of particles, or displacement of nodes
+  double velocity = 0.0;  ///< of particles, or of nodes
+  double strain = 0.0;    ///< and spin, of particles; nodes have none
+  double total = 0.0;     ///< of all unknowns together
 };
 
 /// How much work the local constitutive equations took so far.
@@ -32,6 +44,10 @@ struct IntegratorState {
   double segment_start = 0.0;      ///< s, time of the last output or checkpoint target reached
   std::int64_t segment_steps = 0;  ///< equal steps planned from there to the next target; 0: none planned
   std::int64_t segment_done = 0;   ///< of these, taken
+  double next_step = 0.0;          ///< s, adaptive methods: the step to go on with; 0: none yet
+  ErrorEstimate error;
+  double remap_loss = 0.0;  ///< kinetic energy lost between grid and particles so far, J (per radian or metre)
+  std::int64_t phases = 0;  ///< Lagrangian phases so far
   IntegratorCounters counters;
 };
 
@@ -43,6 +59,10 @@ class GridIntegrator {
   virtual bool advance(System& system, double target, StepObserver& observer) = 0;
   virtual const IntegratorState& state() const = 0;
   virtual void restore(const IntegratorState& state) = 0;
+  /// Whether state().error means something.
+  virtual bool estimates_errors() const { return false; }
+  /// What to try when a run has become unstable. step: s, the last one.
+  virtual std::string advice(const System& system, double step) const = 0;
 };
 
 }  // namespace vitrum

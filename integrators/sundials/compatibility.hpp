@@ -1,4 +1,5 @@
 #pragma once
+#include <arkode/arkode_arkstep.h>
 #include <cvode/cvode.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
@@ -23,6 +24,16 @@ inline void silence_cvode([[maybe_unused]] void* cvode, [[maybe_unused]] SUNCont
 #else
   CVodeSetErrHandlerFn(
       cvode, [](int, const char*, const char*, char*, void*) {}, nullptr);
+#endif
+}
+
+/// The same for ARKODE.
+inline void silence_arkode([[maybe_unused]] void* arkode, [[maybe_unused]] SUNContext context) {
+#if SUNDIALS_VERSION_MAJOR >= 7
+  SUNContext_ClearErrHandlers(context);
+#else
+  ARKStepSetErrHandlerFn(
+      arkode, [](int, const char*, const char*, char*, void*) {}, nullptr);
 #endif
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "integrators/sundials/context.hpp"
+#include "integrators/sundials/owned.hpp"
 
 namespace vitrum::sundials {
 
@@ -57,19 +58,9 @@ class CvodeSolver {
   Result solve(OdeSystem& system, double* y, double end, const Settings& settings);
 
  private:
-  template <auto free>
-  struct Freed {
-    template <class T>
-    void operator()(T* p) const {
-      free(p);
-    }
-  };
   struct FreeMemory {
     void operator()(void* memory) const { CVodeFree(&memory); }
   };
-  template <class Handle, auto free>
-  using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Freed<free>>;
-
   Owned<N_Vector, N_VDestroy> vector_, tolerances_;
   Owned<SUNMatrix, SUNMatDestroy> matrix_;
   Owned<SUNLinearSolver, SUNLinSolFree> linear_;

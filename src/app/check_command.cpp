@@ -8,8 +8,10 @@
 
 #include "app/command_line.hpp"
 #include "integrators/grid/critical_step.hpp"
+#include "integrators/grid/error_scales.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
+#include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/write_scene.hpp"
 
@@ -27,6 +29,33 @@ double bytes_of(const System& system) {
   return bytes;
 }
 
+/// The critical step of the scene's method: of an explicit scheme, of an explicit Butcher table, or (for
+/// comparison: an implicit method has none) that of MUSL.
+CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
+  switch (integrator.method) {
+    case GridMethod::explicit_steps:
+      return critical_step(system, stability_limit(step_scheme(integrator.scheme)));
+    case GridMethod::arkode_explicit:
+      return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0));
+    case GridMethod::arkode_implicit:
+      return critical_step(system, stability_limit(StepScheme::musl));
+  }
+  return {};
+}
+
+/// The step that the scene fixes; none where it adapts to the error.
+std::optional<double> planned_step(const IntegratorDefinition& integrator, const CriticalStep& critical) {
+  if (integrator.method != GridMethod::explicit_steps) return integrator.fixed_step;
+  return integrator.step ? *integrator.step : *integrator.courant * critical.step;
+}
+
+/// What the tolerances of an adaptive method are relative to.
+nlohmann::ordered_json scales_of(const IntegratorDefinition& integrator, const System& system) {
+  if (integrator.method == GridMethod::explicit_steps) return nullptr;
+  const ErrorScales s = error_scales(system, {integrator.velocity_scale, integrator.strain_scale});
+  return {{"velocity", s.velocity}, {"strain", s.strain}, {"length", s.length}};
+}
+
 nlohmann::ordered_json derived(const Scene& scene, const System& system) {
   using json = nlohmann::ordered_json;
   const double whole = system.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
@@ -39,34 +68,36 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system) {
                          {"material", body.material->parameters().name},
                          {"wave_speed", body.material->wave_speed()}};
   }
-  const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
-  const double step =
-      scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
+  const CriticalStep critical = critical_step_of(scene.integrator, system);
+  const std::optional<double> step = planned_step(scene.integrator, critical);
+  const auto known = [](std::optional<double> value) { return value ? json(*value) : json(nullptr); };
+  const auto of_step = [&](auto&& f) { return step ? known(f(*step)) : json(nullptr); };
   return {{"title", scene.title},
           {"particles", system.particle_count()},
           {"memory_bytes", bytes_of(system)},
           {"bodies", bodies},
           {"critical_step", critical.step},
           {"critical_body", critical.body},
-          {"step", step},
-          {"step_to_critical", step / critical.step},
-          {"steps", std::ceil((scene.end - scene.start) / step - 1e-6)}};
+          {"step", known(step)},
+          {"step_to_critical", of_step([&](double s) { return s / critical.step; })},
+          {"steps", of_step([&](double s) { return std::ceil((scene.end - scene.start) / s - 1e-6); })},
+          {"scales", scales_of(scene.integrator, system)}};
 }
 
 }  // namespace
 
 std::vector<std::string> warnings(const Scene& scene, const System& system) {
   std::vector<std::string> list;
-  const CriticalStep critical = critical_step(system, step_scheme(scene.integrator.scheme));
-  const double step =
-      scene.integrator.step ? *scene.integrator.step : *scene.integrator.courant * critical.step;
-  if (step > critical.step)
+  const GridMethod method = scene.integrator.method;
+  const CriticalStep critical = critical_step_of(scene.integrator, system);
+  const double step = planned_step(scene.integrator, critical).value_or(0.0);
+  if (method != GridMethod::arkode_implicit && step > critical.step)
     list.push_back(fmt::format(
-        "integrator.step: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
+        "integrator.{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
         "m/s, fastest particle {:.4g} m/s); energy will grow",
-        step, step / critical.step, critical.step, critical.body, critical.wave_speed,
+        method == GridMethod::explicit_steps ? "step" : "fixed_step", step, step / critical.step, critical.step, critical.body, critical.wave_speed,
         critical.travel_speed));
-  if (scene.integrator.scheme == ExplicitScheme::usl)
+  if (method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
     list.push_back(
         "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
         "\"usf\" and "
@@ -106,10 +137,15 @@ int check_scene(const CheckOptions& options) {
                system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
                body["wave_speed"].get<double>());
   fmt::print("# {} particles, {:.3g} MB\n", system.particle_count(), 1e-6 * bytes_of(system));
-  fmt::print("# critical step {:.6g} s (body '{}'); step {:.6g} s, ratio {:.4g}; {:.0f} steps\n",
-             facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>(),
-             facts["step"].get<double>(), facts["step_to_critical"].get<double>(),
-             facts["steps"].get<double>());
+  fmt::print("# critical step {:.6g} s (body '{}')\n", facts["critical_step"].get<double>(),
+             facts["critical_body"].get<std::string>());
+  if (facts["step"].is_number())
+    fmt::print("# step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["step"].get<double>(),
+               facts["step_to_critical"].get<double>(), facts["steps"].get<double>());
+  if (facts["scales"].is_object())
+    fmt::print("# tolerances relative to: velocity {:.4g} m/s, strain {:.4g}, length {:.4g} m\n",
+               facts["scales"]["velocity"].get<double>(), facts["scales"]["strain"].get<double>(),
+               facts["scales"]["length"].get<double>());
   fmt::print("\n{}", resolved_toml(scene));
   return exit_done;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -29,9 +30,8 @@ void Progress::step(double time, double step, const IntegratorCounters& c) {
   const double seconds = std::chrono::duration<double>(now - begun_).count();
   const double left = computed > 0.0 ? seconds / computed * (1.0 - part) : 0.0;
   const auto filled = static_cast<std::size_t>(part * 30.0);
-  const char* limit = c.limited_by_accuracy > c.limited_by_stability ? "accuracy"
-                      : c.limited_by_stability > 0                   ? "stability"
-                                                                     : "fixed step";
+  constexpr std::array limits{"fixed step", "stability", "accuracy", "output"};
+  const char* limit = limits[static_cast<std::size_t>(c.last_limit)];
   fmt::print(
       stderr,
       "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",

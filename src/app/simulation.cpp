@@ -9,13 +9,12 @@
 #include "app/command_line.hpp"
 #include "app/failed_point.hpp"
 #include "app/signals.hpp"
-#include "integrators/grid/explicit.hpp"
 #include "mpm/computation_error.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
 #include "output/sha256.hpp"
 #include "output/xdmf.hpp"
-#include "scene/build_system.hpp"
+#include "scene/grid_method.hpp"
 #include "scene/input_error.hpp"
 #include "scene/write_scene.hpp"
 
@@ -28,11 +27,10 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       directory_(std::move(directory)),
       system_(std::move(system)),
       whole_(system_.axisymmetric ? 2.0 * std::numbers::pi : 1.0),
-      integrator_(std::make_unique<ExplicitIntegrator>(step_scheme(scene.integrator.scheme),
-                                                       scene.integrator.step, scene.integrator.courant)),
+      integrator_(make_grid_integrator(scene.integrator)),
       ledger_(system_),
       failure_(system_),
-      watchdog_(scene.integrator.max_growth, step_scheme(scene.integrator.scheme)),
+      watchdog_(scene.integrator.max_growth, *integrator_),
       schedule_(scene),
       progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet) {
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
@@ -131,7 +129,7 @@ bool Simulation::advance_to(double target) {
     failed_ = fmt::format("t = {:.6e} s: {}; `vitrum point {}` replays it", system_.time, error.what(),
                           file.string());
   } catch (const ComputationError& error) {
-    failed_ = watchdog_.describe(system_, error.what(), last_step_);
+    failed_ = Watchdog::describe(system_, error.what());
   }
   state_.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return reached;
@@ -162,6 +160,8 @@ std::vector<output::SeriesValue> Simulation::series() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const EnergyTotals e = shown_energy();
   const FailureReport f = failure_.report(system_, false);
+  const ErrorEstimate& error = integrator_->state().error;
+  const auto estimated = [&](double sum) { return integrator_->estimates_errors() ? sum : none; };
   const char* unit = system_.axisymmetric ? "J" : "J/m";
   return {
       {"kinetic", unit, "kinetic energy", e.kinetic},
@@ -181,7 +181,19 @@ std::vector<output::SeriesValue> Simulation::series() const {
       {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)},
       {"step_size", "s", "last step", last_step_},
       {"error_estimate", "1",
-       "accumulated local error estimate of the integrator; NaN: explicit schemes make none", none},
+       "accumulated local error estimates of all unknowns (root mean square, relative to their scales, summed over "
+       "the steps); NaN: the method makes none",
+       estimated(error.total)},
+      {"error_position", "1", "the same of positions (nodal displacements), relative to the cell",
+       estimated(error.position)},
+      {"error_velocity", "1", "the same of velocities, relative to the scene's velocity scale",
+       estimated(error.velocity)},
+      {"error_strain", "1", "the same of particle strains, relative to the scene's strain scale",
+       estimated(error.strain)},
+      {"remap_loss", unit, "kinetic energy lost so far between grid and particles at remaps (arkode-implicit)",
+       whole_ * integrator_->state().remap_loss},
+      {"phases", "1", "Lagrangian phases so far (arkode-implicit)",
+       static_cast<double>(integrator_->state().phases)},
   };
 }
 

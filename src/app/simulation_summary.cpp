@@ -62,9 +62,8 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
   else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
     fmt::print(
         stderr,
-        "warning: the numerics {} {:.1f} % of the energy: the step does not resolve this run (try a smaller "
-        "integrator.step or integrator.courant = 0.1)\n",
-        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual));
+        "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
+        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual), integrator_->advice(system_, last_step_));
   if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
   if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
   return exit_status;
@@ -78,7 +77,7 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.particles = system_.particle_count();
   s.wall_seconds = state_.wall_seconds;
   s.threads = system_.team->size();
-  s.integrator_method = "explicit";
+  s.integrator_method = scene::name_of(scene::grid_method_names, scene_.integrator.method);
   s.constitutive_method = scene::name_of(scene::local_method_names, scene_.constitutive.method);
   s.integrator = integrator_->state().counters;
   s.constitutive.evaluations = system_.constitutive_evaluations;

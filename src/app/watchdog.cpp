@@ -12,18 +12,18 @@ std::optional<std::string> Watchdog::look(const System& system, const EnergyLedg
                                           double step) const {
   const EnergyTotals& e = ledger.totals();
   if (!std::isfinite(e.kinetic + e.elastic + e.external + e.plastic + e.damage + e.fracture))
-    return describe(system, "the energy is not finite", step);
+    return describe(system, "the energy is not finite") + "; " + integrator_.advice(system, step);
   const double growth = ledger.growth();
   if (growth <= max_growth_) return std::nullopt;
   return describe(system,
                   fmt::format("kinetic + elastic energy has grown to {:.4g} times the energy put in (bound: "
                               "integrator.max_growth "
                               "= {:g})",
-                              growth, max_growth_),
-                  step);
+                              growth, max_growth_)) +
+         "; " + integrator_.advice(system, step) + " (integrator.max_growth = inf runs on regardless)";
 }
 
-std::string Watchdog::describe(const System& system, const std::string& cause, double step) const {
+std::string Watchdog::describe(const System& system, const std::string& cause) {
   std::string text = fmt::format("t = {:.6e} s, step {}: {}", system.time, system.step_index, cause);
   const Body* fastest = nullptr;
   std::size_t particle = 0;
@@ -39,17 +39,6 @@ std::string Watchdog::describe(const System& system, const std::string& cause, d
         fmt::format("; fastest: body '{}', particle {} at ({:.6g}, {:.6g}) m with {:.4g} m/s", fastest->name,
                     fastest->particles.identity[particle], fastest->particles.position[0][particle],
                     fastest->particles.position[1][particle], speed);
-  // The critical step of the scene's own speeds: those of a run that has blown up would tell nothing.
-  double critical = std::numeric_limits<double>::infinity();
-  for (const Body& body : system.bodies)
-    critical = std::min(critical, stability_limit(scheme_) * system.cell / body.material->wave_speed());
-  // Below a step that has just failed, however small that was.
-  const double advised = step > 0.0 ? std::min(0.4 * critical, 0.5 * step) : 0.4 * critical;
-  text += fmt::format(
-      "; the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try integrator.step "
-      "= "
-      "{:.2g} or integrator.courant = {:.2g} (integrator.max_growth = inf runs on regardless)",
-      step, step / critical, critical, advised, advised / critical);
   return text;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/energy_ledger.hpp"
-#include "integrators/grid/critical_step.hpp"
+#include "integrators/grid/grid_integrator.hpp"
 
 namespace vitrum::app {
 
@@ -11,18 +11,19 @@ namespace vitrum::app {
 class Watchdog {
  public:
   /// max_growth: bound on (kinetic + |elastic|) / (initial + positive external work), EnergyLedger::growth;
-  /// infinite: only values that are not finite stop.
-  Watchdog(double max_growth, StepScheme scheme) : max_growth_(max_growth), scheme_(scheme) {}
+  /// infinite: only values that are not finite stop. integrator: knows a remedy; must outlive the watchdog.
+  Watchdog(double max_growth, const GridIntegrator& integrator)
+      : max_growth_(max_growth), integrator_(integrator) {}
 
   /// A message that names time, particle, step and remedy when the last step, `step` seconds long, was one
   /// too many.
   std::optional<std::string> look(const System& system, const EnergyLedger& ledger, double step) const;
-  /// The same text for a computation that failed otherwise.
-  std::string describe(const System& system, const std::string& cause, double step) const;
+  /// Time, step, `cause`, and the fastest particle.
+  static std::string describe(const System& system, const std::string& cause);
 
  private:
   double max_growth_;
-  StepScheme scheme_;
+  const GridIntegrator& integrator_;
 };
 
 }  // namespace vitrum::app

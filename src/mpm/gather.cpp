@@ -1,11 +1,12 @@
+#include "mpm/axis.hpp"
 #include "mpm/tile.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
 namespace {
 
-// Slots of a local tile: the velocity for the strain, the velocity that moves particles, the velocity's
-// change.
+// Slots of a local tile: the velocity for the strain, the velocity that moves particles (for rates: the
+// acceleration), the velocity's change.
 constexpr std::size_t strain_slot = 0, motion_slot = 2, change_slot = 4;
 // Slots of the grid's own tile in which MUSL sums the second momenta.
 constexpr std::size_t momentum_slot = 1;
@@ -21,11 +22,22 @@ struct Plan {
   static constexpr bool strain =
       what == Gather::strain || what == Gather::strain_and_position || what == Gather::all_from_new;
   static constexpr bool strain_from_new = what == Gather::all_from_new;
-  static constexpr bool velocity = what == Gather::velocity_and_position || what == Gather::all_from_new ||
-                                   what == Gather::velocity_and_rescatter;
+  static constexpr bool velocity = what == Gather::velocity || what == Gather::velocity_and_position ||
+                                   what == Gather::all_from_new || what == Gather::velocity_and_rescatter;
   static constexpr bool rescatter = what == Gather::velocity_and_rescatter;
-  static constexpr bool position = what == Gather::velocity_and_position || what == Gather::all_from_new ||
-                                   what == Gather::strain_and_position;
+  static constexpr bool position = what == Gather::position || what == Gather::velocity_and_position ||
+                                   what == Gather::all_from_new || what == Gather::strain_and_position;
+  static constexpr bool rates = false, gradient = false;
+};
+
+/// Plans of the passes that leave the particles as they are.
+struct RatesPlan {
+  static constexpr bool strain = false, strain_from_new = false, velocity = false, rescatter = false,
+                        position = false, rates = true, gradient = true;
+};
+struct GradientPlan {
+  static constexpr bool strain = false, strain_from_new = false, velocity = false, rescatter = false,
+                        position = false, rates = false, gradient = true;
 };
 
 struct TileReader {
@@ -38,22 +50,21 @@ struct TileReader {
   }
 };
 
-/// A particle that crosses the axis changes places with its image, whose odd components have the other sign.
-/// (t = n turned by +90 degrees is odd as well.)
-void reflect_at_axis(Particles& p, std::size_t i) {
-  const auto flip = [i](std::vector<double>& column) {
-    if (!column.empty()) column[i] = -column[i];
-  };
-  flip(p.velocity[0]), flip(p.elastic_strain[3]), flip(p.stress[3]);
-  flip(p.strain_increment[3]), flip(p.spin_increment);
-  flip(p.variables[static_cast<std::size_t>(Variable::normal_r)]);
-  flip(p.variables[static_cast<std::size_t>(Variable::opening_t)]);
+void store(const ParticleGradient& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
+  to.gradient[0][i] = rr, to.gradient[1][i] = rz, to.gradient[2][i] = zr, to.gradient[3][i] = zz;
+  to.gradient[4][i] = tt;
+}
+void store(const ParticleRates& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
+  const SymmetricTensor e = rotate({rr, zz, tt, 0.5 * (rz + zr)}, rotation_by(-to.turn[i]));
+  to.strain[0][i] = e.rr, to.strain[1][i] = e.zz, to.strain[2][i] = e.tt, to.strain[3][i] = e.rz;
+  to.spin[i] = 0.5 * (zr - rz);
 }
 
-template <ShapeKind kind, bool axisymmetric, Gather what>
-TileSums gather_tile(System& system, std::size_t tile, double duration) {
+/// P: a plan. targets: by body, for the plans that have a target; otherwise null.
+template <ShapeKind kind, bool axisymmetric, class P, class Target>
+TileSums gather_tile(System& system, std::size_t tile, double duration,
+                     [[maybe_unused]] const Target* targets) {
   using S = Shape1<kind>;
-  using P = Plan<what>;
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const TileReader reader{block, axisymmetric && kind != ShapeKind::linear && block.column == 0};
@@ -61,11 +72,11 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
   double *s0 = local[strain_slot], *s1 = local[strain_slot + 1];  // strain
   double *m0 = local[motion_slot], *m1 = local[motion_slot + 1];  // new velocity: motion
   double *d0 = local[change_slot], *d1 = local[change_slot + 1];  // new minus old
-  if constexpr (P::velocity || P::position) {
+  if constexpr (P::velocity || P::position || P::rates) {
     reader.load(grid.field(Field::new_velocity_0), m0, -1.0);
     reader.load(grid.field(Field::new_velocity_1), m1, 1.0);
   }
-  if constexpr (P::velocity || (P::strain && !P::strain_from_new)) {
+  if constexpr (P::velocity || P::gradient || (P::strain && !P::strain_from_new)) {
     reader.load(grid.field(Field::velocity_0), s0, -1.0);
     reader.load(grid.field(Field::velocity_1), s1, 1.0);
   }
@@ -93,7 +104,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
         for (std::size_t a = 0; a < S::count; ++a) {
           const std::size_t node = entry + b * tile_columns + a;
           const double N = wr.value[a] * wz.value[b];
-          if constexpr (P::strain) {
+          if constexpr (P::strain || P::gradient) {
             const double Nr = wr.slope[a] * wz.value[b], Nz = wr.value[a] * wz.slope[b];
             rr += Nr * s0[node];
             rz += Nz * s0[node];
@@ -103,7 +114,18 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
           }
           if constexpr (P::velocity) dv0 += N * d0[node], dv1 += N * d1[node];
           if constexpr (P::position) dx0 += N * m0[node], dx1 += N * m1[node];
+          if constexpr (P::rates) {
+            dx0 += N * s0[node], dx1 += N * s1[node];
+            dv0 += N * m0[node], dv1 += N * m1[node];
+          }
         }
+      if constexpr (P::gradient)
+        store(targets[n], i, per_cell * rr, per_cell * rz, per_cell * zr, per_cell * zz,
+              axisymmetric ? vr / hoop_radius(r, grid.cell()) : 0.0);
+      if constexpr (P::rates) {
+        targets[n].position[0][i] = dx0, targets[n].position[1][i] = dx1;
+        targets[n].velocity[0][i] = dv0, targets[n].velocity[1][i] = dv1;
+      }
       if constexpr (P::strain) {
         const double scale = duration * per_cell;
         const double hoop = axisymmetric ? duration * vr / hoop_radius(r, grid.cell()) : 0.0;
@@ -144,24 +166,24 @@ TileSums gather_tile(System& system, std::size_t tile, double duration) {
   return sums;
 }
 
-template <Gather what>
-void gather_all(System& system, double duration) {
+template <class P, class Target>
+void gather_all(System& system, double duration, const Target* targets) {
   Grid& grid = system.grid;
   static thread_local std::vector<TileSums> of_tile;  // of the calling thread; workers write to its elements
   std::vector<TileSums>& sums = of_tile;
   sums.resize(grid.tiles().size());
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      sums[tile] = gather_tile<kind, axisymmetric, what>(system, tile, duration);
+      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets);
     });
   });
-  if constexpr (Plan<what>::velocity) {
+  if constexpr (P::velocity) {
     system.record.kinetic = 0.0;
     for (const TileSums& s : sums) system.record.kinetic += s.kinetic;
   }
-  if constexpr (Plan<what>::position)
+  if constexpr (P::position)
     for (const TileSums& s : sums) system.grid_is_stale |= s.stale;
-  if constexpr (Plan<what>::rescatter)
+  if constexpr (P::rescatter)
     system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t n) {
       reduce_tiles(grid, grid.blocks()[n], n, momentum_slot, Field::momentum_0);
       reduce_tiles(grid, grid.blocks()[n], n, momentum_slot + 1, Field::momentum_1);
@@ -171,18 +193,31 @@ void gather_all(System& system, double duration) {
 }  // namespace
 
 void gather(System& system, Gather what, double duration) {
+  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr); };
   switch (what) {
     case Gather::strain:
-      return gather_all<Gather::strain>(system, duration);
+      return all.template operator()<Gather::strain>();
+    case Gather::velocity:
+      return all.template operator()<Gather::velocity>();
+    case Gather::position:
+      return all.template operator()<Gather::position>();
     case Gather::velocity_and_position:
-      return gather_all<Gather::velocity_and_position>(system, duration);
+      return all.template operator()<Gather::velocity_and_position>();
     case Gather::all_from_new:
-      return gather_all<Gather::all_from_new>(system, duration);
+      return all.template operator()<Gather::all_from_new>();
     case Gather::velocity_and_rescatter:
-      return gather_all<Gather::velocity_and_rescatter>(system, duration);
+      return all.template operator()<Gather::velocity_and_rescatter>();
     case Gather::strain_and_position:
-      return gather_all<Gather::strain_and_position>(system, duration);
+      return all.template operator()<Gather::strain_and_position>();
   }
+}
+
+void gather_rates(System& system, std::span<const ParticleRates> rates) {
+  gather_all<RatesPlan>(system, 1.0, rates.data());
+}
+
+void gather_gradient(System& system, std::span<const ParticleGradient> gradients) {
+  gather_all<GradientPlan>(system, 1.0, gradients.data());
 }
 
 double kinetic_energy(const System& system) {

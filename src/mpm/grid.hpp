@@ -27,6 +27,9 @@ enum class Field : std::size_t {
   velocity_1,
   new_velocity_0,  ///< after
   new_velocity_1,
+  // Rates have no new velocities: accelerations (m/s^2) take their place.
+  acceleration_0 = new_velocity_0,
+  acceleration_1 = new_velocity_1,
 };
 inline constexpr std::size_t field_count = 9;
 
@@ -64,6 +67,9 @@ class Grid {
   /// Sorts the particles into blocks anew. Depends on positions only, not on history. Throws ComputationError
   /// for positions that are not finite or too far away (2^31 cells).
   void rebuild(const std::vector<Body>& bodies);
+
+  /// Whether some particle of a tile is no longer in the cells that the tile was made for.
+  bool has_left(std::size_t tile, const std::vector<Body>& bodies) const;
 
   /// Particles of `body` in the block with tile `t`.
   struct Range {

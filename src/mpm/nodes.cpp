@@ -20,6 +20,29 @@ void impose(Grid& grid, std::size_t block, Field component_0) {
   }
 }
 
+/// Work (J per radian or metre, over a second) of gravity on every node and of the reaction -(f + m g) that keeps a
+/// node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity) nodes and the
+/// axis do no work. In the order of the blocks.
+double external_power(const System& system, Field from, Field to) {
+  const Grid& grid = system.grid;
+  bool works = system.gravity[0] != 0.0 || system.gravity[1] != 0.0;
+  for (const Boundary& wall : grid.boundaries())
+    works = works || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
+  if (!works) return 0.0;
+  const double* mass = grid.field(Field::mass);
+  double power = 0.0;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto component = [&](Field f) { return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c)); };
+    const double *force = component(Field::force_0), *v = component(from), *w = component(to);
+    for (std::size_t n = 0; n < grid.blocks().size() * block_nodes; ++n) {
+      const double mean = 0.5 * (v[n] + w[n]), weight = mass[n] * system.gravity[c];
+      power += weight * mean;
+      if (grid.constraint(c, n) >= 0) power -= (force[n] + weight) * mean;
+    }
+  }
+  return power;
+}
+
 /// Mass below which a node counts as empty (what reaches it has underflowed).
 constexpr double empty = std::numeric_limits<double>::min();
 
@@ -43,7 +66,6 @@ void project_velocities(System& system) {
 void apply_forces(System& system, double duration) {
   Grid& grid = system.grid;
   const std::array<double, 2> gravity = system.gravity;
-  const bool has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0;
   const double* mass = grid.field(Field::mass);
   const std::array<const double*, 2> force{grid.field(Field::force_0), grid.field(Field::force_1)};
   const std::array<const double*, 2> v{grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
@@ -58,21 +80,23 @@ void apply_forces(System& system, double duration) {
     if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
   });
 
-  // External work, in the order of the blocks: gravity on every node, and the reaction -(f + m g) that keeps
-  // a node at its prescribed velocity. Held (zero-velocity) nodes and the axis do no work.
-  bool moving = false;
-  for (const Boundary& wall : grid.boundaries())
-    moving = moving || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
-  if (!has_gravity && !moving) return;
-  double work = 0.0;
-  for (std::size_t block = 0; block < grid.blocks().size(); ++block)
-    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n)
-      for (std::size_t c = 0; c < 2; ++c) {
-        work += mass[n] * gravity[c] * 0.5 * (v[c][n] + w[c][n]) * duration;
-        const std::int16_t by = grid.constraint(c, n);
-        if (by >= 0) work -= (force[c][n] + mass[n] * gravity[c]) * w[c][n] * duration;
-      }
-  system.record.external_work += work;
+  system.record.external_work += duration * external_power(system, Field::velocity_0, Field::new_velocity_0);
+}
+
+double accelerate(System& system) {
+  Grid& grid = system.grid;
+  const double* mass = grid.field(Field::mass);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double* force = grid.field(c == 0 ? Field::force_0 : Field::force_1);
+    double* a = grid.field(c == 0 ? Field::acceleration_0 : Field::acceleration_1);
+    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+      for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n)
+        a[n] = mass[n] > empty && grid.constraint(c, n) == Constraint::free
+                   ? force[n] / mass[n] + system.gravity[c]
+                   : 0.0;
+    });
+  }
+  return external_power(system, Field::velocity_0, Field::velocity_0);
 }
 
 }  // namespace vitrum::mpm

@@ -97,6 +97,20 @@ void refresh_grid(System& system) {
   system.grid_is_stale = false;
 }
 
+void refresh_grid_for_positions(System& system) {
+  if (!system.grid_is_stale) {
+    Grid& grid = system.grid;
+    static thread_local std::vector<char> of_tile;  // of the calling thread; workers write to its elements
+    std::vector<char>& left = of_tile;
+    left.assign(grid.tiles().size(), 0);
+    system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
+      left[tile] = grid.has_left(tile, system.bodies) ? 1 : 0;
+    });
+    for (const char l : left) system.grid_is_stale |= l != 0;
+  }
+  refresh_grid(system);
+}
+
 void scatter(System& system, Scatter what) {
   switch (what) {
     case Scatter::momentum:

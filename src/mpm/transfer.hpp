@@ -1,5 +1,8 @@
 #pragma once
+#include <span>
+
 #include "mpm/system.hpp"
+#include "mpm/trial.hpp"
 
 /// The operators between particles and grid, shared by every integrator of the momentum equations. Results do
 /// not depend on the number of threads: each block sums its own particles in order of storage, and blocks are
@@ -8,6 +11,8 @@ namespace vitrum::mpm {
 
 /// Sorts the particles into blocks anew when some particle has left the cells its block was made for.
 void refresh_grid(System& system);
+/// The same for positions that no operator has moved (those of a trial).
+void refresh_grid_for_positions(System& system);
 
 enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
@@ -21,10 +26,15 @@ void project_velocities(System& system);
 /// their prescribed values. Adds the work of gravity and of prescribed velocities to
 /// system.record.external_work.
 void apply_forces(System& system, double duration);
+/// Nodal accelerations a_i = f_i / m_i + g, 0 for held components. Returns the power of gravity and of
+/// prescribed velocities at the nodal `velocity`, W (per radian or per metre).
+double accelerate(System& system);
 
 /// What a pass from nodes to particles does.
 enum class Gather {
   strain,                  ///< strain and spin increments from `velocity`
+  velocity,                ///< v += N (new - old)
+  position,                ///< x += dt N new
   velocity_and_position,   ///< v += N (new - old), x += dt N new
   all_from_new,            ///< the two together, strain from `new_velocity` (USL)
   velocity_and_rescatter,  ///< v += N (new - old), and the new momenta back to the nodes (MUSL)
@@ -32,9 +42,30 @@ enum class Gather {
 };
 void gather(System& system, Gather what, double duration);
 
+/// Where the rates of one body's particles go: arrays of one entry a particle.
+struct ParticleRates {
+  std::array<double*, 2> position, velocity;  ///< m/s, m/s^2
+  std::array<double*, 4> strain;              ///< 1/s, in the frame that has turned by `turn`
+  double* spin;                               ///< rad/s
+  const double* turn;                         ///< rad, counter-clockwise from r to z, in
+};
+/// Rates of the particle system from nodal `velocity` and `acceleration`: x' = N v, v' = N a, e' = R^T D R with
+/// R the rotation by `turn`, w' = the in-plane spin. rates: by body.
+void gather_rates(System& system, std::span<const ParticleRates> rates);
+
+/// Where the gradient of one body goes: (rr, rz, zr, zz, tt), dv_i/dx_j; tt is v_r / r.
+struct ParticleGradient {
+  std::array<double*, 5> gradient;
+};
+/// Gradient of the nodal `velocity` (or of what stands in its place) at every particle. gradients: by body.
+void gather_gradient(System& system, std::span<const ParticleGradient> gradients);
+
 /// Takes every particle's stress and state over the strain increments gathered before; fills the energies and
 /// events of system.record.
 void update_stress(System& system, double duration);
+/// The same for a trial in place (Trial::Scope): stress and elastic strain of the state tried. The committed
+/// state, its internal variables and the record stay as they are.
+void try_stress(System& system, const Trial& trial, double duration);
 
 /// Kinetic energy of the particles now, J (per radian or per metre).
 double kinetic_energy(const System& system);

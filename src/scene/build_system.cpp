@@ -89,18 +89,6 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
 
 }  // namespace
 
-StepScheme step_scheme(ExplicitScheme scheme) {
-  switch (scheme) {
-    case ExplicitScheme::usf:
-      return StepScheme::usf;
-    case ExplicitScheme::usl:
-      return StepScheme::usl;
-    case ExplicitScheme::musl:
-      return StepScheme::musl;
-  }
-  return StepScheme::usf;
-}
-
 int threads_for(std::size_t particles, int available) {
   constexpr std::size_t worth_a_thread = 5000;
   const auto useful = static_cast<int>(std::min<std::size_t>(particles / worth_a_thread + 1, 1024));

@@ -1,5 +1,4 @@
 #pragma once
-#include "integrators/grid/critical_step.hpp"
 #include "mpm/system.hpp"
 #include "scene/scene.hpp"
 
@@ -12,8 +11,5 @@ int threads_for(std::size_t particles, int available);
 /// Makes the system of a scene: materials, particles, grid, local integrator. threads: 0 chooses by size.
 /// Throws InputError for a body whose shape holds no particle, or that reaches across the axis.
 System build_system(const Scene& scene, int threads);
-
-/// The integrator's name for a scheme of the scene.
-StepScheme step_scheme(ExplicitScheme scheme);
 
 }  // namespace vitrum

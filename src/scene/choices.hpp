@@ -14,13 +14,14 @@ inline constexpr std::array<std::string_view, 3> grid_method_names{"explicit", "
 inline constexpr std::array<std::string_view, 3> scheme_names{"usf", "usl", "musl"};
 inline constexpr std::array<std::string_view, 3> local_method_names{"closed-form", "substep", "cvode"};
 inline constexpr std::array<std::string_view, 2> linear_solver_names{"klu", "gmres"};
+inline constexpr std::array<std::string_view, 2> preconditioner_names{"factor", "diagonal"};
 inline constexpr std::array<std::string_view, 2> local_solver_names{"bdf", "adams"};
 inline constexpr std::array<std::string_view, 2> flow_names{"isochoric", "associated"};
 inline constexpr std::array<std::string_view, 2> plane_names{"in-plane", "all"};
 inline constexpr std::array<std::string_view, 1> rate_names{"running-maximum"};
 
 // The leading methods of the list above that this version can run.
-inline constexpr std::size_t available_grid_methods = 1;
+inline constexpr std::size_t available_grid_methods = 2;
 
 /// Components of a vector as `fix` names them.
 constexpr std::array<std::string_view, 2> component_names(Geometry geometry) {

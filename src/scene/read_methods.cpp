@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <tuple>
 
 #include "scene/choices.hpp"
+#include "scene/grid_method.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
 #include "scene/toml_text.hpp"
@@ -31,6 +33,24 @@ void require_available(const TableReader& table, std::span<const std::string_vie
                                      quoted_list(std::vector<std::string>(first.begin(), first.end()))));
 }
 
+/// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps adapt.
+void check_butcher_table(const TableReader& table, const IntegratorDefinition& integrator) {
+  using sundials::TableKind;
+  if (!integrator.table) return;
+  std::vector<std::string> expected = sundials::table_names(table_kind(integrator.method));
+  if (integrator.method == GridMethod::explicit_steps) {  // ignored: any of the two kinds
+    const std::vector<std::string> more = sundials::table_names(TableKind::diagonally_implicit);
+    expected.insert(expected.end(), more.begin(), more.end());
+  }
+  if (std::find(expected.begin(), expected.end(), *integrator.table) == expected.end()) {
+    table.fail("table", "one of " + quoted_list(expected));
+    return;
+  }
+  if (integrator.method != GridMethod::explicit_steps && !integrator.fixed_step &&
+      butcher_table(integrator).embedding == 0)
+    table.fail("table", "a table with an embedding, or 'integrator.fixed_step'");
+}
+
 }  // namespace
 
 void read_integrator(const TableReader& document, Scene& scene) {
@@ -51,6 +71,8 @@ void read_integrator(const TableReader& document, Scene& scene) {
   table->read("table", integrator.table);
   exclude(*table, "order", "table");
   table->read("rtol", integrator.rtol);
+  table->read("velocity_scale", integrator.velocity_scale);
+  table->read("strain_scale", integrator.strain_scale);
   table->read("fixed_step", integrator.fixed_step);
   table->read("initial_step", integrator.initial_step);
   const bool shortest = table->read("min_step", integrator.min_step);
@@ -59,7 +81,11 @@ void read_integrator(const TableReader& document, Scene& scene) {
                 fmt::format("at least 'integrator.min_step' ({})", number_text(*integrator.min_step)));
   std::size_t solver = 0;
   if (table->read_choice("linear_solver", solver)) integrator.linear_solver = linear_solver_names[solver];
+  if (table->read_choice("preconditioner", solver)) integrator.preconditioner = preconditioner_names[solver];
   table->read("remap", integrator.remap);
+  table->read("remap_travel", integrator.remap_travel);
+  table->read("remap_strain", integrator.remap_strain);
+  check_butcher_table(*table, integrator);
 }
 
 void read_constitutive(const TableReader& document, ConstitutiveDefinition& constitutive) {

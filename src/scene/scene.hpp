@@ -57,13 +57,18 @@ struct IntegratorDefinition {
   std::optional<double> step;  ///< s; exactly one of step and courant is set for explicit_steps
   std::optional<double> courant;
   double max_growth = 1.5;  ///< may be infinite
-  // arkode-*: read and validated; their methods come with a later version
+  // arkode-*
   int order = 3;
   std::optional<std::string> table;
   double rtol = 1.0e-3;
+  std::optional<double> velocity_scale, strain_scale;  ///< m/s, 1; absent: derived from the scene
   std::optional<double> fixed_step, max_step, min_step, initial_step;
+  // arkode-implicit
   std::string linear_solver = "klu";
+  std::string preconditioner = "factor";
   double remap = 1.0e-6;
+  double remap_travel = 0.25;  ///< cells
+  double remap_strain = 0.02;
 };
 
 struct ConstitutiveDefinition {

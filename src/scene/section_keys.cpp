@@ -68,7 +68,7 @@ KeyTable time() {
 KeyTable integrator() {
   static const IntegratorDefinition standard;
   static const std::vector<KeyInfo> keys{
-      required(choice_key("method", grid_method_names, "this version runs `explicit`")),
+      required(choice_key("method", grid_method_names, "steps of one of the explicit schemes, or an adaptive method of ARKODE")),
       defaulted(choice_key("scheme", scheme_names,
                            "explicit: when particle stress is updated: first, last, or last after a second "
                            "projection of velocity"),
@@ -87,15 +87,29 @@ KeyTable integrator() {
       text_key("table", "arkode-*: a Butcher table by its SUNDIALS name, instead of `order`"),
       defaulted(number_key("rtol", fraction, "1", "arkode-*: tolerance relative to the scene's own scales"),
                 standard.rtol),
+      number_key("velocity_scale", positive, "m/s",
+                 "arkode-*: scale of velocities; absent: the largest of initial speeds, prescribed velocities and wave "
+                 "speed x strain scale"),
+      number_key("strain_scale", positive, "1",
+                 "arkode-*: scale of strains; absent: the least elastic limit of the scene's materials"),
       number_key("fixed_step", positive, "s", "arkode-*: switches adaptivity off (convergence studies)"),
       number_key("max_step", positive, "s", "arkode-*: longest step"),
       number_key("min_step", positive, "s", "arkode-*: shortest step"),
       number_key("initial_step", positive, "s", "arkode-*: first step"),
       defaulted(choice_key("linear_solver", linear_solver_names, "arkode-implicit"),
                 quoted(standard.linear_solver)),
+      defaulted(choice_key("preconditioner", preconditioner_names,
+                           "arkode-implicit with gmres: a factored matrix of earlier steps, or a diagonal"),
+                quoted(standard.preconditioner)),
       defaulted(
           number_key("remap", positive, "s", "arkode-implicit: longest Lagrangian phase between remaps"),
           standard.remap),
+      defaulted(number_key("remap_travel", positive, "cells",
+                           "arkode-implicit: a phase ends when a particle has moved so far"),
+                standard.remap_travel),
+      defaulted(number_key("remap_strain", positive, "1",
+                           "arkode-implicit: a phase ends when a particle has strained or turned so much"),
+                standard.remap_strain),
   };
   return keys;
 }
@@ -103,7 +117,7 @@ KeyTable integrator() {
 KeyTable constitutive() {
   static const ConstitutiveDefinition standard;
   static const std::vector<KeyInfo> keys{
-      defaulted(choice_key("method", local_method_names, "this version runs `closed-form` (return mappings)"),
+      defaulted(choice_key("method", local_method_names, "return mappings, error-controlled substeps, or CVODE"),
                 "\"closed-form\""),
       defaulted(number_key("rtol", fraction, "1", "substep, cvode: relative tolerance"), standard.rtol),
       defaulted(number_key("atol", fraction, "1",

@@ -86,12 +86,17 @@ void write_integrator(TomlWriter& out, const IntegratorDefinition& integrator) {
   else
     out.line("order", integrator.order);
   out.line("rtol", integrator.rtol);
+  out.line("velocity_scale", integrator.velocity_scale);
+  out.line("strain_scale", integrator.strain_scale);
   out.line("fixed_step", integrator.fixed_step);
   out.line("max_step", integrator.max_step);
   out.line("min_step", integrator.min_step);
   out.line("initial_step", integrator.initial_step);
   out.line("linear_solver", integrator.linear_solver);
+  out.line("preconditioner", integrator.preconditioner);
   out.line("remap", integrator.remap);
+  out.line("remap_travel", integrator.remap_travel);
+  out.line("remap_strain", integrator.remap_strain);
 }
 
 void write_constitutive(TomlWriter& out, const ConstitutiveDefinition& constitutive) {

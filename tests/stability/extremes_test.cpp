@@ -19,7 +19,7 @@ TEST_CASE("A step three times the critical one is stopped by its growth, with a 
     const StepScheme kind = step_scheme(parse_scene(scene.text(), "test").integrator.scheme);
     scene.pace = fixed_step(3.0 * stability_limit(kind));
     MpmRun run(scene);
-    const app::Watchdog watchdog(1.5, kind);
+    const app::Watchdog watchdog(1.5, run.integrator);
     std::optional<std::string> message;
     run.watch = [&](double step) {
       message = watchdog.look(run.system, run.ledger, step);
@@ -34,7 +34,7 @@ TEST_CASE("A step three times the critical one is stopped by its growth, with a 
     CHECK(message->find("integrator.step") != std::string::npos);
     // With no bound on growth only values that are not finite stop a run.
     CHECK_FALSE(
-        app::Watchdog(std::numeric_limits<double>::infinity(), kind).look(run.system, run.ledger, 1.0));
+        app::Watchdog(std::numeric_limits<double>::infinity(), run.integrator).look(run.system, run.ledger, 1.0));
   }
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("A velocity that is not finite is seen: by the energy at once, by the 
   scene.tables = body("block", box({0.0, 0.0}, {3.0, 3.0}));
   MpmRun run(scene);
   run.particles().velocity[0][4] = std::numeric_limits<double>::quiet_NaN();
-  const app::Watchdog watchdog(std::numeric_limits<double>::infinity(), StepScheme::usf);
+  const app::Watchdog watchdog(std::numeric_limits<double>::infinity(), run.integrator);
   bool seen = false;
   run.watch = [&](double step) {
     seen = watchdog.look(run.system, run.ledger, step).has_value();

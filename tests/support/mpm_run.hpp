@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "analysis/energy_ledger.hpp"
-#include "integrators/grid/explicit.hpp"
 #include "mpm/computation_error.hpp"
 #include "scene/build_system.hpp"
+#include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "support/mpm_scene.hpp"
 
@@ -17,7 +17,8 @@ class MpmRun final : private StepObserver {
  public:
   explicit MpmRun(const Scene& scene, int threads = 1)
       : system(build_system(scene, threads)),
-        integrator(step_scheme(scene.integrator.scheme), scene.integrator.step, scene.integrator.courant),
+        integrator_(make_grid_integrator(scene.integrator)),
+        integrator(*integrator_),
         ledger(system) {}
   explicit MpmRun(const MpmScene& scene, int threads = 1)
       : MpmRun(parse_scene(scene.text(), "test.toml"), threads) {}
@@ -33,7 +34,12 @@ class MpmRun final : private StepObserver {
   const EnergyTotals& energy() const { return ledger.totals(); }
 
   System system;
-  ExplicitIntegrator integrator;
+
+ private:
+  std::unique_ptr<GridIntegrator> integrator_;
+
+ public:
+  GridIntegrator& integrator;
   EnergyLedger ledger;
 
  private:

@@ -22,8 +22,9 @@ struct MpmScene {
   std::string geometry = "plane-strain";
   std::string shape = "linear";
   double cell = 1.0;
+  std::string method = "explicit";
   std::string scheme = "usf";
-  std::string pace = "courant = 0.2";  ///< or "step = ..."
+  std::string pace = "courant = 0.2";  ///< or "step = ...", or lines of an adaptive method
   double density = 1.0, young = unit_young, poisson = unit_poisson;
   std::string
       tables;  ///< [[body]], [[boundary]], [gravity], [material.NAME.MODEL]; bodies are made of "elastic"
@@ -31,9 +32,9 @@ struct MpmScene {
   std::string text() const {
     return fmt::format(
         "[space]\ngeometry = \"{}\"\ncell = {:.17g}\nshape_functions = \"{}\"\n[time]\nend = 1.0\n"
-        "[integrator]\nmethod = \"explicit\"\nscheme = \"{}\"\n{}\n{}\n"
+        "[integrator]\nmethod = \"{}\"\nscheme = \"{}\"\n{}\n{}\n"
         "[material.elastic]\ndensity = {:.17g}\nyoung = {:.17g}\npoisson = {:.17g}\n",
-        geometry, cell, shape, scheme, pace, tables, density, young, poisson);
+        geometry, cell, shape, method, scheme, pace, tables, density, young, poisson);
   }
 };
 

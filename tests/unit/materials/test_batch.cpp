@@ -20,14 +20,14 @@ struct Columns {
   Columns(const Material& material, std::size_t count) : spin(count, 0.0), mass(count, 1.0) {
     for (std::size_t c = 0; c < 4; ++c) {
       elastic_strain[c].assign(count, 0.0), stress[c].assign(count, 0.0), increment[c].assign(count, 0.0);
-      pointers.elastic_strain[c] = elastic_strain[c].data();
+      pointers.start_strain[c] = pointers.elastic_strain[c] = elastic_strain[c].data();
       pointers.stress[c] = stress[c].data();
       pointers.strain_increment[c] = increment[c].data();
     }
     for (const VariableInfo& info : material.variables()) {
       const auto v = static_cast<std::size_t>(info.variable);
       variables[v].assign(count, 0.0);
-      pointers.variables[v] = variables[v].data();
+      pointers.start_variables[v] = pointers.variables[v] = variables[v].data();
     }
     pointers.spin_increment = spin.data();
     pointers.mass = mass.data();

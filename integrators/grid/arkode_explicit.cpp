@@ -1,0 +1,80 @@
+#include "integrators/grid/arkode_explicit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/grid/step_pacing.hpp"
+#include "mpm/computation_error.hpp"
+
+namespace vitrum {
+
+using sundials::ArkSolver;
+
+void ArkodeExplicit::prepare(System& system) {
+  context_ = std::make_unique<sundials::Context>();
+  particles_ = std::make_unique<ParticleSystem>(system, error_scales(system, settings_.scales),
+                                                settings_.tolerance, settings_.table.oscillation_limit());
+  sundials::ArkSettings ark;
+  ark.fixed_step = settings_.fixed_step;
+  if (settings_.longest_step) ark.longest_step = *settings_.longest_step;
+  solver_ = std::make_unique<ArkSolver>(*context_, settings_.table, ark, *particles_);
+  before_ = state_.counters;
+}
+
+void ArkodeExplicit::begin(const System& system, double target) {
+  double* y = solver_->y();
+  particles_->begin(y);
+  const double critical = particles_->stable_step(system.time, y);
+  solver_->set_shortest_step(
+      std::max(settings_.shortest_step.value_or(0.0), shortest_sensible_step(critical, system.time, target)));
+  const double first = settings_.first_step.value_or(0.1 * critical);
+  solver_->start(system.time, state_.next_step > 0.0 ? state_.next_step : first);
+}
+
+bool ArkodeExplicit::advance(System& system, double target, StepObserver& observer) {
+  if (!solver_) prepare(system);
+  begin(system, target);
+  const std::optional<double> fixed = settings_.fixed_step;
+  while (system.time < target) {
+    if (fixed) {  // equal steps, not longer than asked for
+      const double left = target - system.time;
+      solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *fixed - 1e-6)));
+    }
+    const ArkSolver::Step step = solver_->step(target);
+    if (step.failure != ArkSolver::Failure::none) fail(system, step);
+    if (!fixed) particles_->add_errors(solver_->local_errors(), state_.error);
+    const bool reflected = particles_->commit(step.time, solver_->y());
+    system.time = step.limit == ArkSolver::Limit::stop ? target : step.time;
+    ++system.step_index;
+    count_step(step, solver_->counters(), before_, fixed.has_value(), state_.counters);
+    state_.next_step = solver_->next_step();
+    if (!observer.step_done(system, step.length)) return system.time >= target;
+    if (reflected && system.time < target) begin(system, target);
+  }
+  return true;
+}
+
+void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
+  const double critical = particles_->stable_step(system.time, solver_->y());
+  std::string cause = "the right-hand side cannot be evaluated there";
+  if (step.failure == ArkSolver::Failure::error_test) {
+    const double* errors = solver_->local_errors();
+    const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());
+    cause = fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated",
+                        particles_->describe(worst), std::abs(errors[worst]), particles_->tolerance_of(worst));
+  }
+  throw ComputationError(fmt::format(
+      "the step has collapsed to {:.3g} s, {:.3g} of the critical step {:.4g} s; {}; try a larger "
+      "integrator.rtol (now {:g}) or smoother space.shape_functions",
+      step.length, step.length / critical, critical, cause, settings_.tolerance));
+}
+
+std::string ArkodeExplicit::advice(const System& /*system*/, double /*step*/) const {
+  return settings_.fixed_step
+             ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
+             : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
+}
+
+}  // namespace vitrum

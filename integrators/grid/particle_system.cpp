@@ -1,0 +1,301 @@
+#include "integrators/grid/particle_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mpm/axis.hpp"
+#include "tensor/symmetric.hpp"
+
+namespace vitrum {
+namespace {
+
+constexpr std::size_t chunk_size = 1024;
+
+/// Calls f(begin, end) for chunks of a body's particles.
+template <class F>
+void for_chunks(System& system, std::size_t size, F&& f) {
+  system.team->for_each_chunk((size + chunk_size - 1) / chunk_size, [&](std::size_t k) {
+    f(k * chunk_size, std::min(size, (k + 1) * chunk_size));
+  });
+}
+
+bool has_external_work(const System& system) {
+  bool works = system.gravity[0] != 0.0 || system.gravity[1] != 0.0;
+  for (const mpm::Boundary& wall : system.grid.boundaries())
+    works = works || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
+  return works;
+}
+
+}  // namespace
+
+ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double tolerance,
+                               double oscillation_limit)
+    : system_(system),
+      scales_(scales),
+      tolerance_(tolerance),
+      oscillation_limit_(oscillation_limit),
+      works_(has_external_work(system)),
+      trial_(system, mpm::Trial::Moves::particles),
+      start_(system.bodies.size()),
+      mirrored_(system.bodies.size()) {
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const std::size_t particles = system.bodies[n].particles.size;
+    first_.push_back(size_);
+    size_ += arrays() * particles;
+    for (auto& column : start_[n].strain) column.assign(particles, 0.0);
+    start_[n].turn.assign(particles, 0.0);
+    if (!system.axisymmetric) start_[n].no_strain.assign(particles, 0.0);
+  }
+  if (works_) ++size_;
+}
+
+std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, const double* y) const {
+  const double* first = y + place(body, strain);
+  const std::size_t n = system_.bodies[body].particles.size;
+  if (system_.axisymmetric) return {first, first + n, first + 2 * n, first + 3 * n};
+  return {first, first + n, start_[body].no_strain.data(), first + 2 * n};
+}
+
+void ParticleSystem::begin(double* y) {
+  std::fill(y, y + size_, 0.0);
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const Particles& p = system_.bodies[n].particles;
+    start_[n].position = p.position;
+    for (auto& column : start_[n].strain) std::fill(column.begin(), column.end(), 0.0);
+    std::fill(start_[n].turn.begin(), start_[n].turn.end(), 0.0);
+    for (std::size_t c = 0; c < 2; ++c)
+      std::copy(p.velocity[c].begin(), p.velocity[c].end(), y + place(n, velocity + c));
+  }
+  committed_time_ = system_.time;
+  committed_work_ = 0.0;
+}
+
+/// Positions and velocities of the trial in place. Particles beyond the axis are represented by their images.
+void ParticleSystem::load(const double* y) {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    Particles& p = system_.bodies[n].particles;
+    for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double *d = y + place(n, displacement + c), *v = y + place(n, velocity + c);
+        for (std::size_t i = begin; i < end; ++i) {
+          p.position[c][i] = start_[n].position[c][i] + d[i];
+          p.velocity[c][i] = v[i];
+        }
+      }
+    });
+    mirrored_[n].clear();
+    if (!system_.axisymmetric) continue;
+    for (std::size_t i = 0; i < p.size; ++i)
+      if (p.position[0][i] < 0.0) {
+        mirrored_[n].push_back(i);
+        p.position[0][i] = -p.position[0][i], p.velocity[0][i] = -p.velocity[0][i];
+      }
+  }
+}
+
+/// Strain and turn since the last commit, in the frame of the committed state.
+void ParticleSystem::set_increments(const double* y) {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    Particles& p = system_.bodies[n].particles;
+    const Start& start = start_[n];
+    const std::array<const double*, 4> e = strain_arrays(n, y);
+    const double* w = y + place(n, turn());
+    for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const SymmetricTensor change =
+            rotate({e[0][i] - start.strain[0][i], e[1][i] - start.strain[1][i],
+                    e[2][i] - start.strain[2][i], e[3][i] - start.strain[3][i]},
+                   rotation_by(start.turn[i]));
+        p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
+        p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
+        p.spin_increment[i] = w[i] - start.turn[i];
+      }
+    });
+  }
+}
+
+bool ParticleSystem::rates(double t, const double* y, double* rates) {
+  const mpm::Trial::Scope scope(system_, trial_);
+  load(y);
+  mpm::refresh_grid_for_positions(system_);
+  set_increments(y);
+  mpm::try_stress(system_, trial_, std::max(0.0, t - committed_time_));
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (const std::size_t i : mirrored_[n]) {
+      double& shear = system_.bodies[n].particles.stress[3][i];
+      shear = -shear;
+    }
+  mpm::scatter(system_, mpm::Scatter::momentum_and_force);
+  mpm::project_velocities(system_);
+  const double power = mpm::accelerate(system_);
+  std::vector<mpm::ParticleRates> targets(system_.bodies.size());
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const auto at = [&](std::size_t array) { return rates + place(n, array); };
+    mpm::ParticleRates& r = targets[n];
+    r.position = {at(displacement), at(displacement + 1)};
+    r.velocity = {at(velocity), at(velocity + 1)};
+    const bool hoop = system_.axisymmetric;
+    r.strain = {at(strain), at(strain + 1), hoop ? at(strain + 2) : start_[n].no_strain.data(),
+                at(strain + (hoop ? 3 : 2))};
+    r.spin = at(turn());
+    r.turn = y + place(n, turn());
+  }
+  mpm::gather_rates(system_, targets);
+  mirror_rates(rates);
+  if (works_) rates[size_ - 1] = power;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) sum += rates[i];
+  return std::isfinite(sum);
+}
+
+/// Rates of the images become those of the particles beyond the axis.
+void ParticleSystem::mirror_rates(double* rates) const {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (const std::size_t i : mirrored_[n])
+      for (const std::size_t array : {displacement, velocity, strain + 3, turn()}) {
+        double& rate = rates[place(n, array) + i];
+        rate = -rate;
+      }
+}
+
+bool ParticleSystem::commit(double t, double* y) {
+  const double duration = t - committed_time_;
+  load(y);
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (const std::size_t i : mirrored_[n]) {  // reflected below, after the increment
+      Particles& p = system_.bodies[n].particles;
+      p.position[0][i] = -p.position[0][i], p.velocity[0][i] = -p.velocity[0][i];
+    }
+  set_increments(y);
+  mpm::update_stress(system_, duration);
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const std::size_t particles = system_.bodies[n].particles.size;
+    const std::array<const double*, 4> e = strain_arrays(n, y);
+    for (std::size_t k = 0; k < 4; ++k) std::copy(e[k], e[k] + particles, start_[n].strain[k].begin());
+    const double* w = y + place(n, turn());
+    std::copy(w, w + particles, start_[n].turn.begin());
+  }
+  committed_time_ = t;
+  system_.record.external_work = works_ ? y[size_ - 1] - committed_work_ : 0.0;
+  if (works_) committed_work_ = y[size_ - 1];
+  system_.record.kinetic = mpm::kinetic_energy(system_);
+  return reflect(y);
+}
+
+/// Particles that have crossed the axis change places with their images, in the system and in y.
+bool ParticleSystem::reflect(double* y) {
+  bool any = false;
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (const std::size_t i : mirrored_[n]) {
+      any = true;
+      Particles& p = system_.bodies[n].particles;
+      p.position[0][i] = -p.position[0][i];
+      mpm::reflect_at_axis(p, i);
+      start_[n].position[0][i] = -start_[n].position[0][i];
+      start_[n].strain[3][i] = -start_[n].strain[3][i];
+      start_[n].turn[i] = -start_[n].turn[i];
+      for (const std::size_t array : {displacement, velocity, strain + 3, turn()}) {
+        double& unknown = y[place(n, array) + i];
+        unknown = -unknown;
+      }
+    }
+  return any;
+}
+
+double ParticleSystem::stable_step(double /*t*/, const double* y) {
+  // The particle system's largest frequency is at most 2 sqrt(2) (c + |v|) / h for any particle positions.
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const double *v0 = y + place(n, velocity), *v1 = y + place(n, velocity + 1);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < system_.bodies[n].particles.size; ++i)
+      largest = std::max(largest, v0[i] * v0[i] + v1[i] * v1[i]);
+    const double speed = system_.bodies[n].material->wave_speed() + std::sqrt(largest);
+    step = std::min(step, oscillation_limit_ / std::sqrt(8.0) * system_.cell / speed);
+  }
+  return step;
+}
+
+auto ParticleSystem::quantity_of(std::size_t array) -> Quantity {
+  return array < velocity ? Quantity::displacement : array < strain ? Quantity::velocity : Quantity::strain;
+}
+
+double ParticleSystem::tolerance_of(Quantity quantity) const {
+  switch (quantity) {
+    case Quantity::displacement:
+      return tolerance_ * scales_.length;
+    case Quantity::velocity:
+      return tolerance_ * scales_.velocity;
+    case Quantity::strain:
+      return tolerance_ * scales_.strain;
+  }
+  return tolerance_;
+}
+
+void ParticleSystem::error_weights(double* weights) const {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (std::size_t a = 0; a < arrays(); ++a) {
+      double* of = weights + place(n, a);
+      std::fill(of, of + system_.bodies[n].particles.size, 1.0 / tolerance_of(quantity_of(a)));
+    }
+  // The work follows from the others; it steers nothing.
+  if (works_) weights[size_ - 1] = 0.0;
+}
+
+void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) const {
+  std::array<double, 3> sums{}, counts{};
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const std::size_t particles = system_.bodies[n].particles.size;
+    for (std::size_t a = 0; a < arrays(); ++a) {
+      const auto group = static_cast<std::size_t>(quantity_of(a));
+      const double scale = tolerance_of(quantity_of(a)) / tolerance_;
+      const double* of = errors + place(n, a);
+      for (std::size_t i = 0; i < particles; ++i) sums[group] += (of[i] / scale) * (of[i] / scale);
+      counts[group] += static_cast<double>(particles);
+    }
+  }
+  estimate.position += std::sqrt(sums[0] / counts[0]);
+  estimate.velocity += std::sqrt(sums[1] / counts[1]);
+  estimate.strain += std::sqrt(sums[2] / counts[2]);
+  estimate.total += std::sqrt((sums[0] + sums[1] + sums[2]) / (counts[0] + counts[1] + counts[2]));
+}
+
+double ParticleSystem::tolerance_of(std::size_t unknown) const {
+  if (works_ && unknown == size_ - 1) return std::numeric_limits<double>::infinity();
+  for (std::size_t n = system_.bodies.size(); n-- > 0;)
+    if (unknown >= first_[n])
+      return tolerance_of(quantity_of((unknown - first_[n]) / system_.bodies[n].particles.size));
+  return tolerance_;
+}
+
+std::string ParticleSystem::describe(std::size_t unknown) const {
+  if (works_ && unknown == size_ - 1) return "external work";
+  for (std::size_t n = system_.bodies.size(); n-- > 0;) {
+    if (unknown < first_[n]) continue;
+    const Body& body = system_.bodies[n];
+    const std::size_t array = (unknown - first_[n]) / body.particles.size,
+                      i = (unknown - first_[n]) % body.particles.size;
+    const std::array<const char*, 2> axes =
+        system_.axisymmetric ? std::array{"r", "z"} : std::array{"x", "y"};
+    std::string what;
+    if (array < velocity)
+      what = fmt::format("displacement {}", axes[array]);
+    else if (array < strain)
+      what = fmt::format("velocity {}", axes[array - velocity]);
+    else if (array == turn())
+      what = "turn";
+    else if (system_.axisymmetric)
+      what = fmt::format("strain {}", std::array{"rr", "zz", "tt", "rz"}[array - strain]);
+    else
+      what = fmt::format("strain {}", std::array{"xx", "yy", "xy"}[array - strain]);
+    return fmt::format("{} of body '{}', particle {} at ({:.6g}, {:.6g}) m", what, body.name,
+                       body.particles.identity[i], body.particles.position[0][i],
+                       body.particles.position[1][i]);
+  }
+  return "an unknown";
+}
+
+}  // namespace vitrum

@@ -1,0 +1,81 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "integrators/grid/error_scales.hpp"
+#include "integrators/grid/grid_integrator.hpp"
+#include "integrators/sundials/ark_system.hpp"
+#include "mpm/transfer.hpp"
+#include "mpm/trial.hpp"
+
+namespace vitrum {
+
+/// The particles as a system of ordinary differential equations. Unknowns of each body, one array after another:
+/// displacement since `begin` (2), velocity (2), strain (4; plane strain: 3) in the frame that turns with the
+/// particle, turn (1); at the end the external work, where there can be any. The grid is scratch:
+///   x' = sum N v_i,  v' = sum N f_i / m_i,  e' = R^T D R,  w' = spin,  with R the rotation by w,
+/// and the stress is the material's response to (committed state, strain since the last commit, time since then).
+class ParticleSystem final : public sundials::ArkSystem {
+ public:
+  /// system must outlive it. tolerance: relative to the scales. oscillation_limit: largest phase of an undamped
+  /// oscillation in one step (frequency x step) that the method stands.
+  ParticleSystem(System& system, const ErrorScales& scales, double tolerance, double oscillation_limit);
+
+  std::size_t size() const override { return size_; }
+  bool rates(double t, const double* y, double* rates) override;
+  void error_weights(double* weights) const override;
+  double stable_step(double t, const double* y) override;
+
+  /// Starts from the system's particles and time.
+  void begin(double* y);
+  /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a particle has
+  /// crossed the axis and was replaced by its image, in y as well; the solver must start anew.
+  bool commit(double t, double* y);
+
+  /// Adds the estimated local errors of a step.
+  void add_errors(const double* errors, ErrorEstimate& estimate) const;
+  /// Names an unknown: body, particle, place, quantity.
+  std::string describe(std::size_t unknown) const;
+  /// The error of an unknown that counts as one.
+  double tolerance_of(std::size_t unknown) const;
+
+ private:
+  enum class Quantity { displacement, velocity, strain };
+  struct Segment {
+    std::size_t body, first;  ///< place of its first array in y
+  };
+  static constexpr std::size_t displacement = 0, velocity = 2, strain = 4;
+  std::size_t turn() const { return system_.axisymmetric ? 8 : 7; }
+  std::size_t arrays() const { return turn() + 1; }
+  /// Place in y of an array of a body; strain components are rr, zz, (tt,) rz.
+  std::size_t place(std::size_t body, std::size_t array) const {
+    return first_[body] + array * system_.bodies[body].particles.size;
+  }
+  std::array<const double*, 4> strain_arrays(std::size_t body, const double* y) const;
+  static Quantity quantity_of(std::size_t array);
+  double tolerance_of(Quantity quantity) const;
+  void load(const double* y);
+  void set_increments(const double* y);
+  void mirror_rates(double* rates) const;
+  bool reflect(double* y);
+
+  System& system_;
+  ErrorScales scales_;
+  double tolerance_, oscillation_limit_;
+  bool works_;  ///< external work is an unknown
+  std::size_t size_ = 0;
+  std::vector<std::size_t> first_;  ///< by body
+  mpm::Trial trial_;
+  struct Start {
+    std::array<std::vector<double>, 2> position;  ///< at `begin`
+    std::array<std::vector<double>, 4> strain;    ///< at the last commit
+    std::vector<double> turn;
+    std::vector<double> no_strain;  ///< takes the hoop rate of plane strain
+  };
+  std::vector<Start> start_;  ///< by body
+  std::vector<std::vector<std::size_t>> mirrored_;  ///< by body: particles of the trial beyond the axis
+  double committed_time_ = 0.0, committed_work_ = 0.0;
+};
+
+}  // namespace vitrum

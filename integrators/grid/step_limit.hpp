@@ -1,0 +1,13 @@
+#pragma once
+
+namespace vitrum {
+
+/// What kept a step from being longer.
+enum class StepLimit {
+  fixed,      ///< its length was given
+  stability,  ///< the critical step of the method
+  accuracy,   ///< the error estimate
+  output,     ///< an output, a checkpoint, a remap, or the end
+};
+
+}  // namespace vitrum

@@ -1,0 +1,258 @@
+#include "integrators/sundials/ark_solver.hpp"
+
+#include <arkode/arkode_arkstep.h>
+#include <arkode/arkode_butcher_dirk.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace vitrum::sundials {
+namespace {
+
+void require(bool good, const char* what) {
+  if (!good) throw std::runtime_error(std::string("ARKODE could not be set up: ") + what);
+}
+
+constexpr int recoverable = 1, unrecoverable = -1;
+
+}  // namespace
+
+/// What ARKODE calls. No exception may cross its frames: it waits in the solver.
+struct ArkSolver::Callbacks {
+  static ArkSolver& self(void* solver) { return *static_cast<ArkSolver*>(solver); }
+
+  template <class Call>
+  static int guarded(void* solver, Call&& call) {
+    try {
+      return call();
+    } catch (const std::bad_alloc&) {
+      self(solver).thrown_ = std::current_exception();
+      return unrecoverable;
+    } catch (...) {
+      self(solver).thrown_ = std::current_exception();
+      return recoverable;
+    }
+  }
+  static int rates(sunrealtype t, N_Vector y, N_Vector rates, void* solver) {
+    return guarded(solver, [&] {
+      return self(solver).system_.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates)) ? 0 : recoverable;
+    });
+  }
+  static int weights(N_Vector, N_Vector weights, void* solver) {
+    N_VScale(1.0, self(solver).weights_.get(), weights);
+    return 0;
+  }
+  static int stability(N_Vector y, sunrealtype t, sunrealtype* step, void* solver) {
+    const double stable = self(solver).system_.stable_step(t, N_VGetArrayPointer(y));
+    *step = std::isfinite(stable) ? stable : -1.0;  // none
+    return 0;
+  }
+  static int linear_system(sunrealtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, sunbooleantype keep,
+                           sunbooleantype* current, sunrealtype gamma, void* solver, N_Vector, N_Vector,
+                           N_Vector) {
+    *current = keep ? SUNFALSE : SUNTRUE;
+    return guarded(solver, [&] {
+      return self(solver).reduced_->form(t, N_VGetArrayPointer(y), gamma, keep != SUNFALSE);
+    });
+  }
+  static int precondition_setup(sunrealtype t, N_Vector y, N_Vector, sunbooleantype keep,
+                                sunbooleantype* current, sunrealtype gamma, void* solver) {
+    *current = keep ? SUNFALSE : SUNTRUE;
+    return guarded(solver, [&] {
+      const int flag = self(solver).reduced_->form(t, N_VGetArrayPointer(y), gamma, keep != SUNFALSE);
+      return flag != 0 ? flag : std::abs(self(solver).reduced_->factor());
+    });
+  }
+  static int precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z, sunrealtype, sunrealtype, int,
+                          void* solver) {
+    return std::abs(self(solver).reduced_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z)));
+  }
+};
+
+ArkSolver::ArkSolver(const Context& context, const ArkSettings& settings, ArkSystem& system)
+    : settings_(settings), system_(system) {
+  y_.reset(N_VNew_Serial(static_cast<sunindextype>(system.size()), context.get()));
+  require(y_ != nullptr, "vector");
+  N_VConst(0.0, y_.get());
+  weights_.reset(N_VClone(y_.get()));
+  errors_.reset(N_VClone(y_.get()));
+  require(weights_ && errors_, "vectors");
+  N_VConst(1.0, weights_.get());
+}
+
+ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const ArkSettings& settings,
+                     ArkSystem& system)
+    : ArkSolver(context, settings, system) {
+  memory_.reset(ARKStepCreate(Callbacks::rates, nullptr, 0.0, y_.get(), context.get()));
+  create(context, table);
+}
+
+ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const ArkSettings& settings,
+                     ReducibleSystem& system, LinearSolverKind linear)
+    : ArkSolver(context, settings, static_cast<ArkSystem&>(system)) {
+  reducible_ = &system;
+  memory_.reset(ARKStepCreate(nullptr, Callbacks::rates, 0.0, y_.get(), context.get()));
+  create(context, table);
+  attach_linear_solver(context, linear);
+}
+
+void ArkSolver::create(const Context& context, const ButcherTable& table) {
+  void* m = memory_.get();
+  require(m != nullptr, "memory");
+  silence_arkode(m, context.get());
+  const bool is_explicit = table.kind == TableKind::explicit_stages;
+  const char* none = is_explicit ? "ARKODE_DIRK_NONE" : "ARKODE_ERK_NONE";
+  require(ARKStepSetTableName(m, is_explicit ? none : table.name.c_str(),
+                              is_explicit ? table.name.c_str() : none) == ARK_SUCCESS,
+          "Butcher table");
+  require(ARKStepSetUserData(m, this) == ARK_SUCCESS, "user data");
+  require(ARKStepWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
+  // Lagrange interpolation needs no right-hand side beyond those of the stages (nothing is interpolated here).
+  require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS, "interpolation");
+  ARKStepSetMaxNumSteps(m, -1);
+  ARKStepSetMaxHnilWarns(m, -1);
+  if (settings_.fixed_step) return;
+  // PI controller on the embedding's order, with ARKODE 6.4's own parameters.
+  std::array<double, 3> parameters{0.8, 0.31, 0.0};
+  ARKStepSetAdaptivityMethod(m, ARK_ADAPT_PI, SUNFALSE, SUNFALSE, parameters.data());
+  ARKStepSetErrorBias(m, settings_.bias);
+  ARKStepSetSafetyFactor(m, settings_.safety);
+  ARKStepSetMaxGrowth(m, settings_.growth);
+  ARKStepSetMaxFirstGrowth(m, settings_.growth);
+  ARKStepSetFixedStepBounds(m, 1.0, settings_.keep_up_to);
+  ARKStepSetCFLFraction(m, settings_.stable_part);
+  ARKStepSetStabilityFn(m, Callbacks::stability, this);
+  ARKStepSetMaxErrTestFails(m, 100);  // the shortest step ends them
+  ARKStepSetMinStep(m, settings_.shortest_step);
+  if (std::isfinite(settings_.longest_step)) ARKStepSetMaxStep(m, settings_.longest_step);
+}
+
+void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind linear) {
+  void* m = memory_.get();
+  const bool direct = linear == LinearSolverKind::klu;
+  reduced_ = std::make_unique<ReducedSolver>(context, *reducible_,
+                                             linear == LinearSolverKind::gmres_with_diagonal
+                                                 ? ReducedSolver::Kind::diagonal
+                                                 : ReducedSolver::Kind::factor);
+  if (direct) {
+    require(ARKStepSetLinearSolver(m, reduced_->interface(), reduced_->matrix()) == 0, "linear solver");
+    require(ARKStepSetLinSysFn(m, Callbacks::linear_system) == 0, "linear system");
+  } else {
+    constexpr int krylov_vectors = 60;
+    krylov_.reset(SUNLinSol_SPGMR(y_.get(), SUN_PREC_RIGHT, krylov_vectors, context.get()));
+    require(krylov_ != nullptr, "GMRES");
+    require(ARKStepSetLinearSolver(m, krylov_.get(), nullptr) == 0, "linear solver");
+    require(ARKStepSetPreconditioner(m, Callbacks::precondition_setup, Callbacks::precondition) == 0,
+            "preconditioner");
+  }
+  ARKStepSetMaxNonlinIters(m, settings_.newton_iterations);
+  ARKStepSetNonlinConvCoef(m, settings_.newton_part);
+  ARKStepSetMaxConvFails(m, 100);  // the shortest step ends them
+}
+
+void ArkSolver::start(double t, double first_step) {
+  time_ = t;
+  system_.error_weights(N_VGetArrayPointer(weights_.get()));
+  const double stable = settings_.fixed_step ? std::numeric_limits<double>::infinity()
+                                             : settings_.stable_part * system_.stable_step(t, y());
+  planned_limit_ = first_step < stable ? Limit::accuracy : Limit::stability;
+  natural_step_ = 0.0;
+  restart(std::min(first_step, stable));
+}
+
+void ArkSolver::set_fixed_step(double step) {
+  settings_.fixed_step = step;
+  ARKStepSetFixedStep(memory_.get(), step);
+}
+
+void ArkSolver::set_shortest_step(double step) {
+  settings_.shortest_step = step;
+  ARKStepSetMinStep(memory_.get(), step);
+}
+
+/// ARKODE begins anew at the state and time reached.
+void ArkSolver::restart(double first_step) {
+  void* m = memory_.get();
+  harvest();
+  require((reducible_ ? ARKStepReInit(m, nullptr, Callbacks::rates, time_, y_.get())
+                      : ARKStepReInit(m, Callbacks::rates, nullptr, time_, y_.get())) == ARK_SUCCESS,
+          "initialisation");
+  stable_steps_ = 0;
+  next_step_ = settings_.fixed_step.value_or(first_step);
+  if (settings_.fixed_step)
+    ARKStepSetFixedStep(m, *settings_.fixed_step);
+  else
+    ARKStepSetInitStep(m, first_step);
+}
+
+auto ArkSolver::step(double stop) -> Step {
+  void* m = memory_.get();
+  thrown_ = nullptr;
+  Step result;
+  while (true) {
+    sunrealtype reached = time_;
+    ARKStepSetStopTime(m, stop);
+    const int flag = ARKStepEvolve(m, stop, y_.get(), &reached, ARK_ONE_STEP);
+    sunrealtype length = 0.0;
+    if (flag >= 0) {
+      time_ = result.time = reached;
+      ARKStepGetLastStep(m, &length);
+      result.length = length;
+      result.limit = flag == ARK_TSTOP_RETURN ? Limit::stop : planned_limit_;
+      if (flag != ARK_TSTOP_RETURN) natural_step_ = length;
+      long stable = 0;
+      ARKStepGetNumExpSteps(m, &stable);
+      planned_limit_ = stable > stable_steps_ ? Limit::stability : Limit::accuracy;
+      stable_steps_ = stable;
+      sunrealtype next = 0.0;
+      ARKStepGetCurrentStep(m, &next);
+      next_step_ = std::max<double>(next, natural_step_);
+      return result;
+    }
+    result.time = time_;
+    ARKStepGetCurrentStep(m, &length);
+    result.length = length;
+    const bool rates_failed = flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR;
+    result.failure = flag == ARK_ERR_FAILURE                              ? Failure::error_test
+                     : flag == ARK_CONV_FAILURE || flag == ARK_LSETUP_FAIL ? Failure::newton
+                                                                           : Failure::rates;
+    // ARKODE gives up where an explicit stage cannot be evaluated; a shorter step may be able to.
+    const double shorter = 0.25 * length;
+    if (!rates_failed || settings_.fixed_step || !(shorter >= settings_.shortest_step) ||
+        !(time_ + shorter > time_)) {
+      if (thrown_) std::rethrow_exception(thrown_);
+      return result;
+    }
+    thrown_ = nullptr;
+    restart(shorter);
+  }
+}
+
+const double* ArkSolver::local_errors() {
+  ARKStepGetEstLocalErrors(memory_.get(), errors_.get());
+  return N_VGetArrayPointer(errors_.get());
+}
+
+/// ARKODE's counters begin anew with each initialisation.
+void ArkSolver::harvest() {
+  total_ = counters();
+}
+
+auto ArkSolver::counters() const -> Counters {
+  void* m = memory_.get();
+  Counters c = total_;
+  long n = 0, fe = 0, fi = 0;
+  ARKStepGetNumStepAttempts(m, &n), c.attempts += n;
+  ARKStepGetNumSteps(m, &n), c.steps += n;
+  ARKStepGetNumRhsEvals(m, &fe, &fi), c.right_hand_sides += fe + fi;
+  if (krylov_) ARKStepGetNumLinRhsEvals(m, &n), c.right_hand_sides += n;
+  if (reducible_) ARKStepGetNumNonlinSolvIters(m, &n), c.newton_iterations = n;  // never begins anew
+  if (reduced_) c.factorisations = reduced_->factorisations();
+  return c;
+}
+
+}  // namespace vitrum::sundials

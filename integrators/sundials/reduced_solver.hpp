@@ -1,0 +1,51 @@
+#pragma once
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include <cstdint>
+
+#include "integrators/sundials/ark_system.hpp"
+#include "integrators/sundials/context.hpp"
+#include "integrators/sundials/owned.hpp"
+
+namespace vitrum::sundials {
+
+/// Solves the reduced Newton equations of a system: KLU behind SUNDIALS' linear-solver interface, or division
+/// by the diagonal. Serves ARKODE as its linear solver (`interface`) or as a preconditioner of GMRES.
+class ReducedSolver {
+ public:
+  enum class Kind { factor, diagonal };
+  /// system and context must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.
+  ReducedSolver(const Context& context, ReducibleSystem& system, Kind kind);
+  ~ReducedSolver();
+  ReducedSolver(const ReducedSolver&) = delete;
+  ReducedSolver& operator=(const ReducedSolver&) = delete;
+
+  /// Forms A for gamma, after linearising at (t, y) unless `keep`. 0: done; 1: not finite.
+  int form(double t, const double* y, double gamma, bool keep);
+  /// Factors what `form` made; SUNDIALS' return value.
+  int factor();
+  /// Approximates the solution of (I - gamma J) x = b with the gamma of the last `form`.
+  int solve(const double* b, double* x);
+
+  /// The solver as SUNDIALS sees it, with the matrix it belongs to.
+  SUNLinearSolver interface() const { return interface_.get(); }
+  SUNMatrix matrix() const { return matrix_.get(); }
+  std::int64_t factorisations() const { return factorisations_; }
+  const std::vector<double>& last_solution() const { return last_solution_; }
+
+ private:
+  ReducibleSystem& system_;
+  Kind kind_;
+  double gamma_ = 0.0;
+  std::int64_t factorisations_ = 0;
+  Owned<SUNMatrix, SUNMatDestroy> matrix_;
+  Owned<N_Vector, N_VDestroy> right_, solution_;
+  Owned<SUNLinearSolver, SUNLinSolFree> klu_;
+  Owned<SUNLinearSolver, SUNLinSolFreeEmpty> interface_;
+  std::vector<double> diagonal_, last_solution_;
+};
+
+}  // namespace vitrum::sundials

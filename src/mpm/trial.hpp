@@ -1,0 +1,47 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "mpm/system.hpp"
+
+namespace vitrum::mpm {
+
+/// Columns of one body that a trial replaces. Empty columns are not replaced.
+struct TrialColumns {
+  std::array<std::vector<double>, 2> position, velocity;
+  std::array<std::vector<double>, 4> elastic_strain, stress;
+};
+
+/// A state that an integrator tries out without touching the committed one: of every body the columns that a
+/// right-hand side needs.
+class Trial {
+ public:
+  enum class Moves {
+    particles,  ///< positions and velocities are tried too
+    nothing,    ///< particles stay; only stress and elastic strain are tried
+  };
+  Trial(const System& system, Moves moves);
+
+  TrialColumns& of(std::size_t body) { return columns_[body]; }
+  const TrialColumns& of(std::size_t body) const { return columns_[body]; }
+
+  /// While it exists, the particles of the system are in the state tried, and the committed state lies in the
+  /// Trial. No column is copied, and an exception restores the committed state.
+  class Scope {
+   public:
+    Scope(System& system, Trial& trial) : system_(system), trial_(trial) { trial_.exchange(system_); }
+    ~Scope() { trial_.exchange(system_); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    System& system_;
+    Trial& trial_;
+  };
+
+ private:
+  void exchange(System& system);
+  std::vector<TrialColumns> columns_;
+};
+
+}  // namespace vitrum::mpm

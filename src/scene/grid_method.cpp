@@ -1,0 +1,56 @@
+#include "scene/grid_method.hpp"
+
+#include "integrators/grid/arkode_explicit.hpp"
+#include "integrators/grid/explicit.hpp"
+#include "scene/input_error.hpp"
+
+namespace vitrum {
+namespace {
+
+AdaptiveSettings adaptive_settings(const IntegratorDefinition& i) {
+  return {butcher_table(i),  i.rtol,     {i.velocity_scale, i.strain_scale},
+          i.fixed_step,      i.max_step, i.min_step,
+          i.initial_step};
+}
+
+}  // namespace
+
+StepScheme step_scheme(ExplicitScheme scheme) {
+  switch (scheme) {
+    case ExplicitScheme::usf:
+      return StepScheme::usf;
+    case ExplicitScheme::usl:
+      return StepScheme::usl;
+    case ExplicitScheme::musl:
+      return StepScheme::musl;
+  }
+  return StepScheme::usf;
+}
+
+sundials::TableKind table_kind(GridMethod method) {
+  return method == GridMethod::arkode_implicit ? sundials::TableKind::diagonally_implicit
+                                               : sundials::TableKind::explicit_stages;
+}
+
+sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator) {
+  const sundials::TableKind kind = table_kind(integrator.method);
+  const std::string name = integrator.table.value_or(sundials::table_of_order(kind, integrator.order));
+  const auto table = sundials::find_table(kind, name);
+  if (!table) throw InputError("integrator.table: SUNDIALS has no table " + name);  // validated before
+  return *table;
+}
+
+std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator) {
+  switch (integrator.method) {
+    case GridMethod::explicit_steps:
+      return std::make_unique<ExplicitIntegrator>(step_scheme(integrator.scheme), integrator.step,
+                                                  integrator.courant);
+    case GridMethod::arkode_explicit:
+      return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator));
+    case GridMethod::arkode_implicit:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace vitrum

@@ -1,0 +1,22 @@
+#pragma once
+#include <memory>
+
+#include "integrators/grid/critical_step.hpp"
+#include "integrators/grid/grid_integrator.hpp"
+#include "integrators/sundials/butcher_table.hpp"
+#include "scene/scene.hpp"
+
+namespace vitrum {
+
+/// The grid integrator that [integrator] names.
+std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator);
+
+/// The integrator's name for a scheme of the scene.
+StepScheme step_scheme(ExplicitScheme scheme);
+
+/// The kind of table that an arkode method takes.
+sundials::TableKind table_kind(GridMethod method);
+/// The table that an arkode method uses.
+sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator);
+
+}  // namespace vitrum
