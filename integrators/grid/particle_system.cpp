@@ -22,13 +22,6 @@ void for_chunks(System& system, std::size_t size, F&& f) {
   });
 }
 
-bool has_external_work(const System& system) {
-  bool works = system.gravity[0] != 0.0 || system.gravity[1] != 0.0;
-  for (const mpm::Boundary& wall : system.grid.boundaries())
-    works = works || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
-  return works;
-}
-
 }  // namespace
 
 ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double tolerance,
@@ -37,7 +30,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
       scales_(scales),
       tolerance_(tolerance),
       oscillation_limit_(oscillation_limit),
-      works_(has_external_work(system)),
+      works_(mpm::has_external_work(system)),
       trial_(system, mpm::Trial::Moves::particles),
       start_(system.bodies.size()),
       mirrored_(system.bodies.size()) {
@@ -96,13 +89,17 @@ void ParticleSystem::load(const double* y) {
   }
 }
 
-/// Strain and turn since the last commit, in the frame of the committed state.
-void ParticleSystem::set_increments(const double* y) {
+/// Strain and turn since the last commit, in the frame of the committed state. Whether there are any.
+bool ParticleSystem::set_increments(const double* y) {
+  bool changed = false;
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     Particles& p = system_.bodies[n].particles;
     const Start& start = start_[n];
     const std::array<const double*, 4> e = strain_arrays(n, y);
     const double* w = y + place(n, turn());
+    bool same = std::equal(w, w + p.size, start.turn.begin());
+    for (std::size_t k = 0; k < 4; ++k) same = same && std::equal(e[k], e[k] + p.size, start.strain[k].begin());
+    changed = changed || !same;
     for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const SymmetricTensor change =
@@ -115,14 +112,26 @@ void ParticleSystem::set_increments(const double* y) {
       }
     });
   }
+  return changed;
+}
+
+/// Stress of the trial. The committed one where nothing has happened yet.
+void ParticleSystem::try_stress(double t, bool changed) {
+  if (changed) {
+    mpm::try_stress(system_, trial_, std::max(0.0, t - committed_time_));
+  } else {
+    for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+      system_.bodies[n].particles.elastic_strain = trial_.of(n).elastic_strain;
+      system_.bodies[n].particles.stress = trial_.of(n).stress;
+    }
+  }
 }
 
 bool ParticleSystem::rates(double t, const double* y, double* rates) {
   const mpm::Trial::Scope scope(system_, trial_);
   load(y);
   mpm::refresh_grid_for_positions(system_);
-  set_increments(y);
-  mpm::try_stress(system_, trial_, std::max(0.0, t - committed_time_));
+  try_stress(t, set_increments(y));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
     for (const std::size_t i : mirrored_[n]) {
       double& shear = system_.bodies[n].particles.stress[3][i];

@@ -56,7 +56,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   static Quantity quantity_of(std::size_t array);
   double tolerance_of(Quantity quantity) const;
   void load(const double* y);
-  void set_increments(const double* y);
+  bool set_increments(const double* y);
+  void try_stress(double t, bool changed);
   void mirror_rates(double* rates) const;
   bool reflect(double* y);
 

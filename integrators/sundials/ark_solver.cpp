@@ -38,6 +38,8 @@ struct ArkSolver::Callbacks {
     }
   }
   static int rates(sunrealtype t, N_Vector y, N_Vector rates, void* solver) {
+    if (self(solver).know_first_stage(rates)) return 0;
+    ++self(solver).evaluations_;
     return guarded(solver, [&] {
       return self(solver).system_.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates)) ? 0 : recoverable;
     });
@@ -75,9 +77,7 @@ struct ArkSolver::Callbacks {
 
 ArkSolver::ArkSolver(const Context& context, const ArkSettings& settings, ArkSystem& system)
     : settings_(settings), system_(system) {
-  y_.reset(N_VNew_Serial(static_cast<sunindextype>(system.size()), context.get()));
-  require(y_ != nullptr, "vector");
-  N_VConst(0.0, y_.get());
+  y_ = make_state_vector(system.size(), context);
   weights_.reset(N_VClone(y_.get()));
   errors_.reset(N_VClone(y_.get()));
   require(weights_ && errors_, "vectors");
@@ -87,6 +87,7 @@ ArkSolver::ArkSolver(const Context& context, const ArkSettings& settings, ArkSys
 ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const ArkSettings& settings,
                      ArkSystem& system)
     : ArkSolver(context, settings, system) {
+  first_same_as_last_ = table.ends_in_solution();
   memory_.reset(ARKStepCreate(Callbacks::rates, nullptr, 0.0, y_.get(), context.get()));
   create(context, table);
 }
@@ -164,6 +165,20 @@ void ArkSolver::start(double t, double first_step) {
   restart(std::min(first_step, stable));
 }
 
+/// Explicit methods: whether `rates` are those of the first stage, and known already.
+bool ArkSolver::know_first_stage(N_Vector rates) {
+  if (reducible_ != nullptr) return false;
+  if (first_stage_ == nullptr) first_stage_ = rates;  // the first call after an initialisation
+  if (rates != first_stage_) {
+    last_stage_ = rates;
+    return false;
+  }
+  if (!first_is_known_ && last_is_known_) N_VScale(1.0, last_stage_, rates);
+  const bool known = first_is_known_ || last_is_known_;
+  first_is_known_ = true;
+  return known;
+}
+
 void ArkSolver::set_fixed_step(double step) {
   settings_.fixed_step = step;
   ARKStepSetFixedStep(memory_.get(), step);
@@ -182,6 +197,8 @@ void ArkSolver::restart(double first_step) {
                       : ARKStepReInit(m, Callbacks::rates, nullptr, time_, y_.get())) == ARK_SUCCESS,
           "initialisation");
   stable_steps_ = 0;
+  first_stage_ = nullptr;
+  first_is_known_ = last_is_known_ = false;
   next_step_ = settings_.fixed_step.value_or(first_step);
   if (settings_.fixed_step)
     ARKStepSetFixedStep(m, *settings_.fixed_step);
@@ -200,6 +217,7 @@ auto ArkSolver::step(double stop) -> Step {
     sunrealtype length = 0.0;
     if (flag >= 0) {
       time_ = result.time = reached;
+      first_is_known_ = false, last_is_known_ = first_same_as_last_;
       ARKStepGetLastStep(m, &length);
       result.length = length;
       result.limit = flag == ARK_TSTOP_RETURN ? Limit::stop : planned_limit_;
@@ -245,11 +263,10 @@ void ArkSolver::harvest() {
 auto ArkSolver::counters() const -> Counters {
   void* m = memory_.get();
   Counters c = total_;
-  long n = 0, fe = 0, fi = 0;
+  long n = 0;
+  c.right_hand_sides = evaluations_;
   ARKStepGetNumStepAttempts(m, &n), c.attempts += n;
   ARKStepGetNumSteps(m, &n), c.steps += n;
-  ARKStepGetNumRhsEvals(m, &fe, &fi), c.right_hand_sides += fe + fi;
-  if (krylov_) ARKStepGetNumLinRhsEvals(m, &n), c.right_hand_sides += n;
   if (reducible_) ARKStepGetNumNonlinSolvIters(m, &n), c.newton_iterations = n;  // never begins anew
   if (reduced_) c.factorisations = reduced_->factorisations();
   return c;

@@ -12,8 +12,8 @@
 #include "integrators/sundials/ark_system.hpp"
 #include "integrators/sundials/butcher_table.hpp"
 #include "integrators/sundials/context.hpp"
-#include "integrators/sundials/owned.hpp"
 #include "integrators/sundials/reduced_solver.hpp"
+#include "integrators/sundials/state_vector.hpp"
 
 namespace vitrum::sundials {
 
@@ -34,7 +34,9 @@ enum class LinearSolverKind { klu, gmres_with_factor, gmres_with_diagonal };
 
 /// ARKODE's ARKStep for one system, one Butcher table; steps one at a time, so that the caller commits each.
 /// (ARKStep also for explicit tables: ERKStep of SUNDIALS 6.4 takes the rate of the last stage for that at the
-/// end of the step whenever c_s = 1, also where the last stage is not the solution.)
+/// end of the step whenever c_s = 1, also where the last stage is not the solution. ARKStep in turn evaluates the
+/// first stage of every attempt; here it is known from the attempt before, or from the last stage where that is
+/// the solution.)
 class ArkSolver {
  public:
   /// Explicit. context and system must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.
@@ -90,15 +92,20 @@ class ArkSolver {
   void attach_linear_solver(const Context& context, LinearSolverKind linear);
   void restart(double first_step);
   void harvest();
+  bool know_first_stage(N_Vector rates);
 
   ArkSettings settings_;
   ArkSystem& system_;
   ReducibleSystem* reducible_ = nullptr;
-  Owned<N_Vector, N_VDestroy> y_, weights_, errors_;
+  StateVector y_, weights_, errors_;
   std::unique_ptr<ReducedSolver> reduced_;
   Owned<SUNLinearSolver, SUNLinSolFree> krylov_;
   std::unique_ptr<void, FreeMemory> memory_;  // after what it uses: freed before
   std::exception_ptr thrown_;
+  bool first_same_as_last_ = false;
+  N_Vector first_stage_ = nullptr, last_stage_ = nullptr;  // ARKODE's rates of explicit stages
+  bool first_is_known_ = false, last_is_known_ = false;    // for the step at hand
+  std::int64_t evaluations_ = 0;
   double time_ = 0.0, next_step_ = 0.0, natural_step_ = 0.0;
   Limit planned_limit_ = Limit::accuracy;
   long stable_steps_ = 0;  // of ARKODE's count, seen so far

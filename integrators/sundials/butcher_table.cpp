@@ -67,6 +67,10 @@ std::string table_of_order(TableKind kind, int order) {
   return kind == TableKind::explicit_stages ? explicit_tables[k] : implicit_tables[k];
 }
 
+bool ButcherTable::ends_in_solution() const {
+  return std::equal(b.begin(), b.end(), a.end() - stages);
+}
+
 double ButcherTable::growth(double phase) const {
   // R(z) = 1 + z sum b_i k_i with k_i = 1 + z sum a_ij k_j.
   const std::complex<double> z(0.0, phase);

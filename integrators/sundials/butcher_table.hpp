@@ -17,6 +17,8 @@ struct ButcherTable {
   std::vector<double> a;  ///< stages x stages, by rows
   std::vector<double> b;
 
+  /// Whether the last stage is the solution, so that its rate is that of the next step's start.
+  bool ends_in_solution() const;
   /// |R(iy)|: growth per step of an undamped oscillation with phase y = frequency x step (explicit tables).
   double growth(double phase) const;
   /// The largest y up to which |R(iy)| <= 1 + 1e-3 (explicit tables): what a mode may gain in a step; tables

@@ -93,4 +93,19 @@ void try_stress(System& system, const Trial& trial, double duration) {
                     [](const BatchReport&) {});
 }
 
+void gather_tangents(System& system, const Trial& trial, double duration,
+                     std::vector<std::vector<TangentEntries>>& tangents) {
+  tangents.resize(system.bodies.size());
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    Body& body = system.bodies[n];
+    const std::size_t size = body.particles.size;
+    tangents[n].resize(size);
+    const ParticleColumns columns = columns_of(body.particles, trial.of(n));
+    system.team->for_each_chunk((size + chunk_size - 1) / chunk_size, [&](std::size_t k) {
+      body.material->tangent(columns, k * chunk_size, std::min(size, (k + 1) * chunk_size), duration,
+                             tangents[n].data());
+    });
+  }
+}
+
 }  // namespace vitrum::mpm

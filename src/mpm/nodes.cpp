@@ -25,10 +25,7 @@ void impose(Grid& grid, std::size_t block, Field component_0) {
 /// axis do no work. In the order of the blocks.
 double external_power(const System& system, Field from, Field to) {
   const Grid& grid = system.grid;
-  bool works = system.gravity[0] != 0.0 || system.gravity[1] != 0.0;
-  for (const Boundary& wall : grid.boundaries())
-    works = works || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
-  if (!works) return 0.0;
+  if (!has_external_work(system)) return 0.0;
   const double* mass = grid.field(Field::mass);
   double power = 0.0;
   for (std::size_t c = 0; c < 2; ++c) {
@@ -47,6 +44,13 @@ double external_power(const System& system, Field from, Field to) {
 constexpr double empty = std::numeric_limits<double>::min();
 
 }  // namespace
+
+bool has_external_work(const System& system) {
+  bool works = system.gravity[0] != 0.0 || system.gravity[1] != 0.0;
+  for (const Boundary& wall : system.grid.boundaries())
+    works = works || wall.velocity[0] != 0.0 || wall.velocity[1] != 0.0;
+  return works;
+}
 
 void project_velocities(System& system) {
   Grid& grid = system.grid;

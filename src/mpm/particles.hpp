@@ -24,6 +24,9 @@ struct Particles {
   // Scratch of one step, never stored: strain increment in the frame that turns with the particle, and turn.
   std::array<std::vector<double>, 4> strain_increment;
   std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
+  /// Not empty: forces act on a configuration of the past, and the stress is the nominal one, whose shears
+  /// differ; stress[3] is then P_rz and this P_zr, Pa.
+  std::vector<double> stress_zr;
 };
 
 struct Body {

@@ -26,6 +26,7 @@ void scatter_tile(System& system, std::size_t tile) {
     const Body& body = system.bodies[n];
     const Particles& p = body.particles;
     const double half = body.particle_half_size * per_cell;
+    const double* stress_zr = p.stress_zr.empty() ? p.stress[3].data() : p.stress_zr.data();
     const double specific_volume = 1.0 / body.material->parameters().elastic.density;
     for (const std::uint32_t* k = begin; k != end; ++k) {
       const std::size_t i = *k;
@@ -33,13 +34,13 @@ void scatter_tile(System& system, std::size_t tile) {
       const auto wr = S::at(r * per_cell, half), wz = S::at(p.position[1][i] * per_cell, half);
       const std::size_t entry = tile_entry(block, wr, wz);
       const double m = p.mass[i], mv0 = m * p.velocity[0][i], mv1 = m * p.velocity[1][i];
-      double rr = 0.0, zz = 0.0, rz = 0.0, hoop = 0.0;
+      double rr = 0.0, zz = 0.0, rz = 0.0, zr = 0.0, hoop = 0.0;
       if constexpr (with_force) {
         const double volume =
             m * specific_volume *
             (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
         rr = -volume * p.stress[0][i] * per_cell, zz = -volume * p.stress[1][i] * per_cell;
-        rz = -volume * p.stress[3][i] * per_cell;
+        rz = -volume * p.stress[3][i] * per_cell, zr = -volume * stress_zr[i] * per_cell;
         if constexpr (axisymmetric) hoop = -volume * p.stress[2][i] / hoop_radius(r, grid.cell());
       }
       for (std::size_t b = 0; b < S::count; ++b)
@@ -54,7 +55,7 @@ void scatter_tile(System& system, std::size_t tile) {
           if constexpr (with_force) {
             const double Nr = wr.slope[a] * wz.value[b], Nz = wr.value[a] * wz.slope[b];
             f0[node] += rr * Nr + rz * Nz + hoop * N;
-            f1[node] += rz * Nr + zz * Nz;
+            f1[node] += zr * Nr + zz * Nz;
           }
         }
     }

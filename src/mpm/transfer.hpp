@@ -26,6 +26,8 @@ void project_velocities(System& system);
 /// their prescribed values. Adds the work of gravity and of prescribed velocities to
 /// system.record.external_work.
 void apply_forces(System& system, double duration);
+/// Whether gravity or a prescribed velocity can do work.
+bool has_external_work(const System& system);
 /// Nodal accelerations a_i = f_i / m_i + g, 0 for held components. Returns the power of gravity and of
 /// prescribed velocities at the nodal `velocity`, W (per radian or per metre).
 double accelerate(System& system);
@@ -66,6 +68,10 @@ void update_stress(System& system, double duration);
 /// The same for a trial in place (Trial::Scope): stress and elastic strain of the state tried. The committed
 /// state, its internal variables and the record stay as they are.
 void try_stress(System& system, const Trial& trial, double duration);
+
+/// Consistent tangents of the increments of a trial in place, by body and particle (materials/tangent.hpp).
+void gather_tangents(System& system, const Trial& trial, double duration,
+                     std::vector<std::vector<TangentEntries>>& tangents);
 
 /// Kinetic energy of the particles now, J (per radian or per metre).
 double kinetic_energy(const System& system);

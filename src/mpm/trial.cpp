@@ -15,7 +15,10 @@ Trial::Trial(const System& system, Moves moves) : columns_(system.bodies.size())
   for (std::size_t n = 0; n < columns_.size(); ++n) {
     const Particles& p = system.bodies[n].particles;
     columns_[n].elastic_strain = p.elastic_strain, columns_[n].stress = p.stress;
-    if (moves == Moves::particles) columns_[n].position = p.position, columns_[n].velocity = p.velocity;
+    if (moves == Moves::particles)
+      columns_[n].position = p.position, columns_[n].velocity = p.velocity;
+    else
+      columns_[n].stress_zr.assign(p.size, 0.0);
   }
 }
 
@@ -26,6 +29,7 @@ void Trial::exchange(System& system) {
     swap_columns(columns_[n].velocity, p.velocity);
     swap_columns(columns_[n].elastic_strain, p.elastic_strain);
     swap_columns(columns_[n].stress, p.stress);
+    columns_[n].stress_zr.swap(p.stress_zr);
   }
 }
 

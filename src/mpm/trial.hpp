@@ -10,6 +10,7 @@ namespace vitrum::mpm {
 struct TrialColumns {
   std::array<std::vector<double>, 2> position, velocity;
   std::array<std::vector<double>, 4> elastic_strain, stress;
+  std::vector<double> stress_zr;  ///< nominal stress only
 };
 
 /// A state that an integrator tries out without touching the committed one: of every body the columns that a
@@ -18,7 +19,7 @@ class Trial {
  public:
   enum class Moves {
     particles,  ///< positions and velocities are tried too
-    nothing,    ///< particles stay; only stress and elastic strain are tried
+    nodes,      ///< particles stay; elastic strain and nominal stress are tried
   };
   Trial(const System& system, Moves moves);
 

@@ -20,9 +20,6 @@ inline constexpr std::array<std::string_view, 2> flow_names{"isochoric", "associ
 inline constexpr std::array<std::string_view, 2> plane_names{"in-plane", "all"};
 inline constexpr std::array<std::string_view, 1> rate_names{"running-maximum"};
 
-// The leading methods of the list above that this version can run.
-inline constexpr std::size_t available_grid_methods = 2;
-
 /// Components of a vector as `fix` names them.
 constexpr std::array<std::string_view, 2> component_names(Geometry geometry) {
   return geometry == Geometry::axisymmetric ? std::array<std::string_view, 2>{"r", "z"}

@@ -1,6 +1,7 @@
 #include "scene/grid_method.hpp"
 
 #include "integrators/grid/arkode_explicit.hpp"
+#include "integrators/grid/arkode_implicit.hpp"
 #include "integrators/grid/explicit.hpp"
 #include "scene/input_error.hpp"
 
@@ -11,6 +12,12 @@ AdaptiveSettings adaptive_settings(const IntegratorDefinition& i) {
   return {butcher_table(i),  i.rtol,     {i.velocity_scale, i.strain_scale},
           i.fixed_step,      i.max_step, i.min_step,
           i.initial_step};
+}
+
+sundials::LinearSolverKind linear_solver(const IntegratorDefinition& i) {
+  using Kind = sundials::LinearSolverKind;
+  if (i.linear_solver == "klu") return Kind::klu;
+  return i.preconditioner == "diagonal" ? Kind::gmres_with_diagonal : Kind::gmres_with_factor;
 }
 
 }  // namespace
@@ -48,7 +55,10 @@ std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition&
     case GridMethod::arkode_explicit:
       return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator));
     case GridMethod::arkode_implicit:
-      return nullptr;
+      return std::make_unique<ArkodeImplicit>(
+          adaptive_settings(integrator),
+          RemapSettings{integrator.remap, integrator.remap_travel, integrator.remap_strain},
+          linear_solver(integrator));
   }
   return nullptr;
 }

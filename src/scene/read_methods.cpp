@@ -23,16 +23,6 @@ void exclude(const TableReader& table, std::string_view one, std::string_view ot
                                   join_path(table.path(), earlier)));
 }
 
-/// The first `available` of `names` run; the others are names that scenes may hold for other versions.
-void require_available(const TableReader& table, std::span<const std::string_view> names, std::size_t method,
-                       std::size_t available) {
-  if (method < available) return;
-  const std::span<const std::string_view> first = names.first(available);
-  table.report("method", fmt::format("found {}, which is not available in this version; available: {}",
-                                     quoted(names[method]),
-                                     quoted_list(std::vector<std::string>(first.begin(), first.end()))));
-}
-
 /// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps adapt.
 void check_butcher_table(const TableReader& table, const IntegratorDefinition& integrator) {
   using sundials::TableKind;
@@ -57,9 +47,7 @@ void read_integrator(const TableReader& document, Scene& scene) {
   IntegratorDefinition& integrator = scene.integrator;
   const auto table = document.table("integrator", keys::integrator());
   if (!table) return;
-  if (table->read_choice("method", integrator.method))
-    require_available(*table, grid_method_names, static_cast<std::size_t>(integrator.method),
-                      available_grid_methods);
+  table->read_choice("method", integrator.method);
   table->read_choice("scheme", integrator.scheme);
   table->read("step", integrator.step);
   require_countable(*table, "step", integrator.step, scene);

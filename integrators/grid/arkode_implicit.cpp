@@ -1,0 +1,138 @@
+#include "integrators/grid/arkode_implicit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/grid/critical_step.hpp"
+#include "integrators/grid/step_pacing.hpp"
+#include "mpm/computation_error.hpp"
+
+namespace vitrum {
+
+using sundials::ArkSolver;
+
+void ArkodeImplicit::prepare(System& system) {
+  context_ = std::make_unique<sundials::Context>();
+  grid_ = std::make_unique<GridSystem>(system, error_scales(system, settings_.scales), settings_.tolerance);
+}
+
+/// Phases up to a target are of equal length, and short enough for the fastest particle.
+double ArkodeImplicit::phase_end(const System& system, double target) const {
+  double fastest = 0.0;
+  for (const Body& body : system.bodies)
+    for (std::size_t i = 0; i < body.particles.size; ++i)
+      fastest = std::max(fastest, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
+  double length = remap_.duration;
+  if (fastest > 0.0) length = std::min(length, remap_.travel * system.cell / fastest);
+  const double left = target - system.time;
+  const double phases = std::max(1.0, std::ceil(left / length - 1e-6));
+  return phases <= 1.0 ? target : system.time + left / phases;
+}
+
+void ArkodeImplicit::begin_phase(System& system, double phase_end, double target) {
+  grid_->begin_phase();
+  critical_step_ = critical_step(system, stability_limit(StepScheme::musl)).step;
+  if (grid_->pattern().size() == 0) {
+    solver_.reset();
+    return;
+  }
+  if (!solver_ || solver_->size() != grid_->size() || pattern_ != grid_->pattern()) {
+    before_ = state_.counters;
+    pattern_ = grid_->pattern();
+    sundials::ArkSettings ark;
+    ark.fixed_step = settings_.fixed_step;
+    if (settings_.longest_step) ark.longest_step = *settings_.longest_step;
+    ark.growth = 10.0;
+    ark.keep_up_to = 1.5;  // a factored matrix is worth more than a slightly longer step
+    solver_ = std::make_unique<ArkSolver>(*context_, settings_.table, ark, *grid_, linear_);
+  }
+  solver_->set_shortest_step(std::max(settings_.shortest_step.value_or(0.0),
+                                      shortest_sensible_step(critical_step_, system.time, target)));
+  grid_->start(solver_->y());
+  const double first = state_.next_step > 0.0 ? state_.next_step : settings_.first_step.value_or(critical_step_);
+  solver_->start(system.time, std::min(first, phase_end - system.time));
+}
+
+/// One step within a phase; whether it ended the phase by reaching phase_end. length: s.
+bool ArkodeImplicit::take_step(System& system, double phase_end, double& length) {
+  IntegratorCounters& counters = state_.counters;
+  if (!solver_) {
+    length = phase_end - system.time;
+    grid_->carry(system.time, phase_end, carried_);
+    grid_->commit(phase_end, carried_.data());
+    count_step({ArkSolver::Failure::none, phase_end, length, ArkSolver::Limit::stop}, {}, counters,
+               settings_.fixed_step.has_value(), counters);
+    return true;
+  }
+  if (settings_.fixed_step) {
+    const double left = phase_end - system.time;
+    solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *settings_.fixed_step - 1e-6)));
+  }
+  const ArkSolver::Step step = solver_->step(phase_end);
+  if (step.failure != ArkSolver::Failure::none) fail(step);
+  if (!settings_.fixed_step) grid_->add_errors(solver_->local_errors(), state_.error);
+  grid_->commit(step.time, solver_->y());
+  count_step(step, solver_->counters(), before_, settings_.fixed_step.has_value(), counters);
+  state_.next_step = solver_->next_step();
+  length = step.length;
+  system.time = step.time;
+  return step.limit == ArkSolver::Limit::stop;
+}
+
+bool ArkodeImplicit::advance(System& system, double target, StepObserver& observer) {
+  if (!grid_) prepare(system);
+  bool goes_on = true;
+  while (goes_on && system.time < target) {
+    const double end = phase_end(system, target);
+    begin_phase(system, end, target);
+    bool phase_over = false;
+    while (!phase_over) {
+      double length = 0.0;
+      phase_over = take_step(system, end, length);
+      if (phase_over) system.time = end;
+      ++system.step_index;
+      const double* y = solver_ ? solver_->y() : carried_.data();
+      phase_over = phase_over || grid_->deformation() > remap_.strain || grid_->travel(y) > remap_.travel;
+      if (phase_over) state_.remap_loss += grid_->end_phase(y), ++state_.phases;
+      goes_on = observer.step_done(system, length);
+      if (!goes_on && !phase_over) {  // stopped on the way: particles must stand where they are
+        const double loss = grid_->end_phase(y);
+        state_.remap_loss += loss, ++state_.phases;
+        break;
+      }
+    }
+  }
+  return system.time >= target;
+}
+
+void ArkodeImplicit::fail(const ArkSolver::Step& step) const {
+  std::string cause = "the right-hand side cannot be evaluated there";
+  if (step.failure == ArkSolver::Failure::error_test) {
+    const double* errors = solver_->local_errors();
+    const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());
+    cause = fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated", grid_->describe(worst),
+                        std::abs(errors[worst]), grid_->tolerance_of(worst));
+  } else if (step.failure == ArkSolver::Failure::newton) {
+    cause = "Newton's iteration does not converge";
+    const std::vector<double>& correction = solver_->last_correction();
+    if (!correction.empty()) {
+      const std::size_t worst = worst_unknown(correction.data(), solver_->weights(), solver_->size());
+      cause += fmt::format("; largest weighted correction: {}, {:.3g} where {:.3g} is tolerated",
+                           grid_->describe(worst), std::abs(correction[worst]), grid_->tolerance_of(worst));
+    }
+  }
+  throw ComputationError(fmt::format(
+      "the step has collapsed to {:.3g} s, {:.3g} of the explicit critical step {:.4g} s; {}; try a larger integrator.rtol (now {:g}), "
+      "a smaller integrator.remap (now {:g} s), or integrator.method = \"arkode-explicit\"",
+      step.length, step.length / critical_step_, critical_step_, cause, settings_.tolerance, remap_.duration));
+}
+
+std::string ArkodeImplicit::advice(const System& /*system*/, double /*step*/) const {
+  return settings_.fixed_step
+             ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
+             : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
+}
+
+}  // namespace vitrum

@@ -1,0 +1,273 @@
+#include "integrators/grid/grid_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mpm/finite_strain.hpp"
+
+namespace vitrum {
+
+using mpm::Field;
+using mpm::FiniteStrain;
+
+GridSystem::GridSystem(System& system, const ErrorScales& scales, double tolerance)
+    : system_(system),
+      scales_(scales),
+      tolerance_(tolerance),
+      works_(mpm::has_external_work(system)),
+      trial_(system, mpm::Trial::Moves::nodes),
+      deformations_(system.bodies.size()) {
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const std::size_t particles = system.bodies[n].particles.size;
+    mpm::ParticleGradient targets{};
+    for (std::size_t k = 0; k < 5; ++k) {
+      deformations_[n].gradient[k].assign(particles, 0.0);
+      targets.gradient[k] = deformations_[n].gradient[k].data();
+    }
+    gradients_.push_back(targets);
+  }
+}
+
+void GridSystem::begin_phase() {
+  mpm::refresh_grid(system_);
+  mpm::scatter(system_, mpm::Scatter::momentum);
+  mpm::project_velocities(system_);
+  mpm::number_unknowns(system_, nodes_);
+  stiffness_.lay_out(system_, nodes_);
+  start_velocity_.resize(nodes_.size());
+  mpm::read_field(system_, nodes_, Field::velocity_0, start_velocity_.data());
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const std::size_t particles = system_.bodies[n].particles.size;
+    for (auto& column : deformations_[n].committed_strain) column.assign(particles, 0.0);
+    deformations_[n].committed_turn.assign(particles, 0.0);
+  }
+  start_time_ = committed_time_ = system_.time;
+  committed_work_ = 0.0, deformation_ = 0.0;
+  start_kinetic_ = mpm::kinetic_energy(system_);
+  mean_mass_ = nodes_.size() == 0 ? 1.0
+                                  : std::accumulate(nodes_.mass.begin(), nodes_.mass.end(), 0.0) /
+                                        static_cast<double>(nodes_.size());
+}
+
+void GridSystem::start(double* y) const {
+  std::fill(y, y + size(), 0.0);
+  std::copy(start_velocity_.begin(), start_velocity_.end(), y + nodes_.size());
+}
+
+/// Displacement gradients at y. Whether any is not that of the last commit is told by set_increments.
+bool GridSystem::deform(double t, const double* y) {
+  mpm::fill_field(system_, nodes_, y, t - start_time_, Field::velocity_0);
+  mpm::gather_gradient(system_, gradients_);
+  bool changed = false;
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const Deformation& d = deformations_[n];
+    const auto& p = system_.bodies[n].particles;
+    for (std::size_t i = 0; i < p.size && !changed; ++i) {
+      const SymmetricTensor e =
+          FiniteStrain({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]})
+              .strain();
+      changed = e.rr != d.committed_strain[0][i] || e.zz != d.committed_strain[1][i] ||
+                e.tt != d.committed_strain[2][i] || e.rz != d.committed_strain[3][i];
+    }
+  }
+  return changed;
+}
+
+/// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment to
+/// the frame of the present (as_committed), or back to that of the phase's start, where forces are computed.
+void GridSystem::set_increments(bool as_committed) {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    Particles& p = system_.bodies[n].particles;
+    const Deformation& d = deformations_[n];
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i], d.committed_strain[2][i],
+                                   d.committed_strain[3][i]};
+      const SymmetricTensor change = rotate(f.strain() - before, rotation_by(d.committed_turn[i]));
+      p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
+      p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
+      p.spin_increment[i] = (as_committed ? f.turn() : 0.0) - d.committed_turn[i];
+    }
+  }
+}
+
+/// Nominal stress of the trial in place.
+void GridSystem::try_stress(double t, bool changed) {
+  if (changed) {
+    mpm::try_stress(system_, trial_, std::max(0.0, t - committed_time_));
+  } else {  // exactly the committed state, turned back to the phase's start
+    for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+      Particles& p = system_.bodies[n].particles;
+      const mpm::TrialColumns& committed = trial_.of(n);
+      for (std::size_t i = 0; i < p.size; ++i) {
+        const Rotation back = rotation_by(p.spin_increment[i]);
+        const auto turned = [&](const auto& from, auto& to) {
+          const SymmetricTensor a = rotate({from[0][i], from[1][i], from[2][i], from[3][i]}, back);
+          to[0][i] = a.rr, to[1][i] = a.zz, to[2][i] = a.tt, to[3][i] = a.rz;
+        };
+        turned(committed.elastic_strain, p.elastic_strain);
+        turned(committed.stress, p.stress);
+      }
+    }
+  }
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    Particles& p = system_.bodies[n].particles;
+    const Deformation& d = deformations_[n];
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const auto P = f.nominal({p.stress[0][i], p.stress[1][i], p.stress[2][i], p.stress[3][i]});
+      p.stress[0][i] = P[0], p.stress[3][i] = P[1], p.stress_zr[i] = P[2], p.stress[1][i] = P[3];
+    }
+  }
+}
+
+bool GridSystem::rates(double t, const double* y, double* rates) {
+  const std::size_t n = nodes_.size();
+  const bool changed = deform(t, y);
+  {
+    const mpm::Trial::Scope scope(system_, trial_);
+    set_increments(false);
+    try_stress(t, changed);
+    mpm::scatter(system_, mpm::Scatter::force);
+  }
+  if (works_) mpm::fill_field(system_, nodes_, y + n, 1.0, Field::velocity_0);
+  const double power = mpm::accelerate(system_);
+  std::copy(y + n, y + 2 * n, rates);
+  mpm::read_field(system_, nodes_, Field::acceleration_0, rates + n);
+  if (works_) rates[2 * n] = power;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < size(); ++k) sum += rates[k];
+  return std::isfinite(sum);
+}
+
+bool GridSystem::linearise(double t, const double* y) {
+  const bool changed = deform(t, y);
+  const mpm::Trial::Scope scope(system_, trial_);
+  set_increments(false);
+  try_stress(t, changed);
+  mpm::gather_tangents(system_, trial_, std::max(0.0, t - committed_time_), tangents_);
+  stiffness_.assemble(system_, nodes_, gradients_, tangents_, stiffness_values_);
+  double sum = 0.0;
+  for (const double k : stiffness_values_) sum += k;
+  return std::isfinite(sum);
+}
+
+void GridSystem::form(double gamma, double* values) const {
+  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma K b_u.
+  for (std::size_t k = 0; k < stiffness_values_.size(); ++k) values[k] = gamma * gamma * stiffness_values_[k];
+  for (std::size_t k = 0; k < nodes_.size(); ++k) values[stiffness_.diagonal()[k]] += nodes_.mass[k];
+}
+
+void GridSystem::reduce(double gamma, const double* b, double* c) const {
+  const std::size_t n = nodes_.size();
+  for (std::size_t k = 0; k < n; ++k) c[k] = nodes_.mass[k] * b[n + k];
+  const sundials::SparsePattern& pattern = stiffness_.pattern();
+  for (std::size_t k = 0; k < n; ++k)
+    for (auto e = static_cast<std::size_t>(pattern.column[k]); e < static_cast<std::size_t>(pattern.column[k + 1]); ++e)
+      c[pattern.row[e]] -= gamma * stiffness_values_[e] * b[k];
+}
+
+void GridSystem::expand(double gamma, const double* b, const double* z, double* x) const {
+  const std::size_t n = nodes_.size();
+  for (std::size_t k = 0; k < n; ++k) x[k] = b[k] + gamma * z[k], x[n + k] = z[k];
+  if (works_) x[2 * n] = b[2 * n];  // depends on the others, not they on it
+}
+
+void GridSystem::carry(double from, double to, std::vector<double>& y) {
+  y.assign(size(), 0.0);
+  if (!works_) return;
+  std::vector<double> power(size());
+  const auto at = [&](double t) {
+    rates(t, y.data(), power.data());
+    return power.back();
+  };
+  y.back() = (to - from) / 6.0 * (at(from) + 4.0 * at(0.5 * (from + to)) + at(to));
+}
+
+void GridSystem::commit(double t, const double* y) {
+  const std::size_t n = nodes_.size();
+  deform(t, y);
+  set_increments(true);
+  mpm::update_stress(system_, t - committed_time_);
+  for (std::size_t body = 0; body < system_.bodies.size(); ++body) {
+    Deformation& d = deformations_[body];
+    for (std::size_t i = 0; i < system_.bodies[body].particles.size; ++i) {
+      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const SymmetricTensor& e = f.strain();
+      d.committed_strain[0][i] = e.rr, d.committed_strain[1][i] = e.zz;
+      d.committed_strain[2][i] = e.tt, d.committed_strain[3][i] = e.rz;
+      d.committed_turn[i] = f.turn();
+      deformation_ = std::max({deformation_, norm(e), std::abs(d.committed_turn[i])});
+    }
+  }
+  committed_time_ = t;
+  double gained = 0.0;
+  for (std::size_t k = 0; k < n; ++k)
+    gained += 0.5 * nodes_.mass[k] * (y[n + k] - start_velocity_[k]) * (y[n + k] + start_velocity_[k]);
+  system_.record.kinetic = start_kinetic_ + gained;
+  system_.record.external_work = works_ ? y[2 * n] - committed_work_ : 0.0;
+  if (works_) committed_work_ = y[2 * n];
+}
+
+double GridSystem::end_phase(const double* y) {
+  const std::size_t n = nodes_.size();
+  const double on_grid = system_.record.kinetic;
+  mpm::fill_field(system_, nodes_, start_velocity_.data(), 1.0, Field::velocity_0);
+  mpm::fill_field(system_, nodes_, y + n, 1.0, Field::new_velocity_0);
+  mpm::gather(system_, mpm::Gather::velocity, 1.0);
+  mpm::fill_field(system_, nodes_, y, committed_time_ - start_time_, Field::new_velocity_0);
+  mpm::gather(system_, mpm::Gather::position, 1.0);
+  return on_grid - system_.record.kinetic;
+}
+
+double GridSystem::travel(const double* y) const {
+  // A node of little mass may go far without any particle following it.
+  double way = 0.0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_.mass[k] > 1e-3 * mean_mass_) way = std::max(way, std::abs(y[k]));
+  return way / system_.cell;
+}
+
+/// Error weights contain the root of the mass: what counts is the error of momentum and of the work that forces
+/// could do, not that of a node with next to no mass.
+double GridSystem::weight_of_mass(std::size_t unknown) const {
+  return std::sqrt(nodes_.mass[unknown % nodes_.size()] / mean_mass_);
+}
+
+double GridSystem::tolerance_of(std::size_t unknown) const {
+  const std::size_t n = nodes_.size();
+  const double scale = unknown < n       ? scales_.strain * scales_.length
+                       : unknown < 2 * n ? scales_.velocity
+                                         : 1e6 * mean_mass_ * static_cast<double>(n) * scales_.velocity * scales_.velocity;
+  return tolerance_ * scale / (unknown < 2 * n ? weight_of_mass(unknown) : 1.0);
+}
+
+void GridSystem::error_weights(double* weights) const {
+  for (std::size_t k = 0; k < size(); ++k) weights[k] = 1.0 / tolerance_of(k);
+}
+
+void GridSystem::add_errors(const double* errors, ErrorEstimate& estimate) const {
+  const std::size_t n = nodes_.size();
+  if (n == 0) return;
+  double displacement = 0.0, velocity = 0.0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double u = errors[k] * tolerance_ / tolerance_of(k), v = errors[n + k] * tolerance_ / tolerance_of(n + k);
+    displacement += u * u, velocity += v * v;
+  }
+  const auto count = static_cast<double>(n);
+  estimate.position += std::sqrt(displacement / count);
+  estimate.velocity += std::sqrt(velocity / count);
+  estimate.total += std::sqrt((displacement + velocity) / (2.0 * count));
+}
+
+std::string GridSystem::describe(std::size_t unknown) const {
+  const std::size_t n = nodes_.size();
+  if (unknown >= 2 * n) return "external work";
+  return fmt::format("{} {}", unknown < n ? "displacement" : "velocity",
+                     mpm::describe_unknown(system_, nodes_, unknown % n));
+}
+
+}  // namespace vitrum

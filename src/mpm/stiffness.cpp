@@ -1,0 +1,166 @@
+#include "mpm/stiffness.hpp"
+
+#include <algorithm>
+
+#include "mpm/finite_strain.hpp"
+#include "mpm/tile.hpp"
+
+namespace vitrum::mpm {
+namespace {
+
+/// Index of the node at column i, row j of a block's own count (-2 .. 9); -1: in no block.
+std::int64_t node_at(const Block& block, int i, int j) {
+  const auto side = [](int k) { return k < 0 ? -1 : k >= block_side ? 1 : 0; };
+  const std::int32_t n = neighbour(block, side(i), side(j));
+  if (n < 0) return -1;
+  return std::int64_t{n} * block_nodes + ((j + block_side) % block_side) * block_side +
+         (i + block_side) % block_side;
+}
+
+/// What one node of a particle's stencil contributes.
+struct StencilNode {
+  std::int64_t node;
+  int column, row;           ///< in the particle's block
+  double value, slope_r, slope_z;  ///< N, dN/dr, dN/dz
+  double parity;             ///< of the radial component: -1 for the image beyond the axis
+};
+
+/// Calls f(body, particle, stencil) for all particles, tile by tile.
+template <ShapeKind kind, bool axisymmetric, class F>
+void for_stencils(const System& system, F&& f) {
+  using S = Shape1<kind>;
+  const Grid& grid = system.grid;
+  const double per_cell = 1.0 / grid.cell();
+  std::array<StencilNode, static_cast<std::size_t>(S::count * S::count)> stencil;
+  for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile) {
+    const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
+    for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+      const Body& body = system.bodies[n];
+      const double half = body.particle_half_size * per_cell;
+      const auto [begin, end] = grid.particles(tile, n);
+      for (const std::uint32_t* k = begin; k != end; ++k) {
+        const auto wr = S::at(body.particles.position[0][*k] * per_cell, half),
+                   wz = S::at(body.particles.position[1][*k] * per_cell, half);
+        std::size_t count = 0;
+        for (std::size_t b = 0; b < S::count; ++b)
+          for (std::size_t a = 0; a < S::count; ++a) {
+            int i = static_cast<int>(wr.first - std::int64_t{block.column} * block_side) + static_cast<int>(a);
+            const int j =
+                static_cast<int>(wz.first - std::int64_t{block.row} * block_side) + static_cast<int>(b);
+            const bool image = axisymmetric && block.column == 0 && i < 0;
+            if (image) i = -i;
+            stencil[count++] = {node_at(block, i, j),
+                                i,
+                                j,
+                                wr.value[a] * wz.value[b],
+                                per_cell * wr.slope[a] * wz.value[b],
+                                per_cell * wr.value[a] * wz.slope[b],
+                                image ? -1.0 : 1.0};
+          }
+        f(n, std::size_t{*k}, stencil);
+      }
+    }
+  }
+}
+
+template <class From, class To>
+std::size_t offset_between(const From& a, const To& b) {
+  return static_cast<std::size_t>((b.row - a.row + 2) * 5 + b.column - a.column + 2);
+}
+
+}  // namespace
+
+void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns) {
+  const Grid& grid = system.grid;
+  links_.assign(grid.blocks().size() * block_nodes, {});
+  dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
+    for_stencils<kind, axisymmetric>(system, [&](std::size_t, std::size_t, const auto& stencil) {
+      for (const StencilNode& from : stencil)
+        for (const StencilNode& to : stencil)
+          if (from.node >= 0 && to.node >= 0)
+            links_[static_cast<std::size_t>(from.node)].mask |= 1U << offset_between(from, to);
+    });
+  });
+  pattern_.column.assign(1, 0);
+  pattern_.row.clear();
+  diagonal_.clear();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const std::size_t node = unknowns.node[k];
+    const Block& block = grid.blocks()[node / block_nodes];
+    const int i = static_cast<int>(node % block_nodes) % block_side,
+              j = static_cast<int>(node % block_nodes) / block_side;
+    Links& links = links_[node];
+    std::uint8_t rows = 0;
+    for (int o = 0; o < offsets; ++o) {
+      links.first_row[static_cast<std::size_t>(o)] = rows;
+      if ((links.mask >> o & 1U) == 0) continue;
+      const std::int64_t other = node_at(block, i + o % 5 - reach, j + o / 5 - reach);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const std::int32_t row = unknowns.number[2 * static_cast<std::size_t>(other) + c];
+        if (row < 0) continue;
+        if (row == static_cast<std::int32_t>(k)) diagonal_.push_back(static_cast<std::int64_t>(pattern_.row.size()));
+        pattern_.row.push_back(row);
+        ++rows;
+      }
+    }
+    pattern_.column.push_back(static_cast<std::int64_t>(pattern_.row.size()));
+  }
+}
+
+void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
+                         std::span<const ParticleGradient> gradients,
+                         std::span<const std::vector<TangentEntries>> tangents,
+                         std::vector<double>& values) const {
+  const Grid& grid = system.grid;
+  values.assign(pattern_.row.size(), 0.0);
+  dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
+    for_stencils<kind, axisymmetric>(system, [&](std::size_t n, std::size_t i, const auto& stencil) {
+      const Particles& p = system.bodies[n].particles;
+      const auto& g = gradients[n].gradient;
+      const FiniteStrain deformation({g[0][i], g[1][i], g[2][i], g[3][i], g[4][i]});
+      const double volume = p.mass[i] / system.bodies[n].material->parameters().elastic.density *
+                            (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+      const TangentEntries& T = tangents[n][i];
+      const double hoop = axisymmetric ? 1.0 / hoop_radius(p.position[0][i], grid.cell()) : 0.0;
+      // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears counted.
+      constexpr std::size_t count = std::tuple_size_v<std::remove_cvref_t<decltype(stencil)>>;
+      std::array<std::array<double, 4>, 2 * count> B, TB;
+      for (std::size_t a = 0; a < count; ++a) {
+        const StencilNode& s = stencil[a];
+        const SymmetricTensor r = deformation.change({s.slope_r, s.slope_z, 0.0, 0.0, s.value * hoop}),
+                              z = deformation.change({0.0, 0.0, s.slope_r, s.slope_z, 0.0});
+        B[2 * a] = {s.parity * r.rr, s.parity * r.zz, s.parity * r.tt, s.parity * r.rz};
+        B[2 * a + 1] = {z.rr, z.zz, z.tt, z.rz};
+      }
+      for (std::size_t a = 0; a < 2 * count; ++a)
+        for (std::size_t row = 0; row < 4; ++row) {
+          const double* t = T.data() + 4 * row;
+          TB[a][row] = (row == 3 ? 2.0 : 1.0) * volume *
+                       (t[0] * B[a][0] + t[1] * B[a][1] + t[2] * B[a][2] + t[3] * B[a][3]);
+        }
+      for (std::size_t b = 0; b < count; ++b) {
+        if (stencil[b].node < 0) continue;
+        const auto node_b = static_cast<std::size_t>(stencil[b].node);
+        for (std::size_t cb = 0; cb < 2; ++cb) {
+          const std::int32_t column = unknowns.number[2 * node_b + cb];
+          if (column < 0) continue;
+          const std::int64_t start = pattern_.column[static_cast<std::size_t>(column)];
+          for (std::size_t a = 0; a < count; ++a) {
+            if (stencil[a].node < 0) continue;
+            const auto node_a = static_cast<std::size_t>(stencil[a].node);
+            std::int64_t place = start + links_[node_b].first_row[offset_between(stencil[b], stencil[a])];
+            for (std::size_t ca = 0; ca < 2; ++ca) {
+              if (unknowns.number[2 * node_a + ca] < 0) continue;
+              const auto& left = B[2 * a + ca];
+              const auto& right = TB[2 * b + cb];
+              values[static_cast<std::size_t>(place++)] +=
+                  left[0] * right[0] + left[1] * right[1] + left[2] * right[2] + left[3] * right[3];
+            }
+          }
+        }
+      }
+    });
+  });
+}
+
+}  // namespace vitrum::mpm
