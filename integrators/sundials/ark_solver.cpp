@@ -209,8 +209,8 @@ void ArkSolver::restart(double first_step) {
 auto ArkSolver::step(double stop) -> Step {
   void* m = memory_.get();
   thrown_ = nullptr;
-  Step result;
   while (true) {
+    Step result;
     sunrealtype reached = time_;
     ARKStepSetStopTime(m, stop);
     const int flag = ARKStepEvolve(m, stop, y_.get(), &reached, ARK_ONE_STEP);

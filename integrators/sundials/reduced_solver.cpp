@@ -60,7 +60,13 @@ int ReducedSolver::form(double t, const double* y, double gamma, bool keep) {
 
 int ReducedSolver::factor() {
   ++factorisations_;
-  if (klu_) return SUNLinSolSetup(klu_.get(), matrix_.get());
+  if (klu_) {
+    const int flag = SUNLinSolSetup(klu_.get(), matrix_.get());
+    if (flag == SUNLS_SUCCESS) return flag;
+    // The pivots of the last factorisation may not do for another gamma: choose them anew.
+    SUNLinSol_KLUReInit(klu_.get(), matrix_.get(), SM_NNZ_S(matrix_.get()), SUNKLU_REINIT_PARTIAL);
+    return SUNLinSolSetup(klu_.get(), matrix_.get());
+  }
   const SparsePattern& pattern = system_.pattern();
   const double* values = SM_DATA_S(matrix_.get());
   for (std::size_t j = 0; j < pattern.size(); ++j)

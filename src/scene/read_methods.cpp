@@ -8,6 +8,7 @@
 #include "scene/grid_method.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
+#include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::scene {
@@ -23,17 +24,22 @@ void exclude(const TableReader& table, std::string_view one, std::string_view ot
                                   join_path(table.path(), earlier)));
 }
 
-/// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps adapt.
+/// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps adapt. (A
+/// scene of explicit steps may hold either kind.)
 void check_butcher_table(const TableReader& table, const IntegratorDefinition& integrator) {
   using sundials::TableKind;
   if (!integrator.table) return;
-  std::vector<std::string> expected = sundials::table_names(table_kind(integrator.method));
-  if (integrator.method == GridMethod::explicit_steps) {  // ignored: any of the two kinds
+  std::vector<std::string> known = sundials::table_names(table_kind(integrator.method));
+  std::string expected = integrator.method == GridMethod::arkode_implicit
+                             ? fmt::format("SUNDIALS' name of a diagonally implicit Butcher table, such as {}", known[1])
+                             : fmt::format("SUNDIALS' name of an explicit Butcher table, such as {}", known[1]);
+  if (integrator.method == GridMethod::explicit_steps) {
     const std::vector<std::string> more = sundials::table_names(TableKind::diagonally_implicit);
-    expected.insert(expected.end(), more.begin(), more.end());
+    known.insert(known.end(), more.begin(), more.end());
+    expected = "SUNDIALS' name of a Butcher table";
   }
-  if (std::find(expected.begin(), expected.end(), *integrator.table) == expected.end()) {
-    table.fail("table", "one of " + quoted_list(expected));
+  if (std::find(known.begin(), known.end(), *integrator.table) == known.end()) {
+    table.fail("table", with_suggestion(expected, *integrator.table, known));
     return;
   }
   if (integrator.method != GridMethod::explicit_steps && !integrator.fixed_step &&

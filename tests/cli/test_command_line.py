@@ -43,14 +43,6 @@ class Arguments(CommandLineTest):
             self.assertRegex(answer.stderr, r"error: missing\.toml: found no such file")
             self.assertRegex(self.vitrum(command, ".", status=2).stderr, "directory")
 
-    def test_methods_not_available(self):
-        for key, method in (("integrator", "arkode-explicit"), ("integrator", "arkode-implicit")):
-            for command in ("run", "check"):
-                with self.subTest(method=method, command=command):
-                    answer = self.vitrum(command, impact, "--set", f'{key}.method="{method}"', status=2)
-                    self.assertRegex(answer.stderr, f"{key}.method.*{method}.*not available in this version")
-        self.assertEqual(list(self.folder.iterdir()), [])
-
     def test_full_disk_behind_standard_output(self):
         for arguments in (["check", impact], ["--version"], ["point", glass_point]):
             with self.subTest(arguments=arguments), open("/dev/full", "w") as full:

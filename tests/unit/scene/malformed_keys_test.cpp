@@ -132,12 +132,24 @@ TEST_CASE("wrong types are errors", "[scene]") {
   });
 }
 
-TEST_CASE("methods of other versions are valid names that this version refuses", "[scene]") {
+TEST_CASE("Butcher tables are of the kind that the method takes, and known to SUNDIALS", "[scene]") {
   require_scene_faults({
       {"method = \"explicit\"",
-       "method = \"arkode-explicit\"",
-       "s.toml:8:10: key 'integrator.method': ",
-       {"found \"arkode-explicit\", which is not available in this version; available: \"explicit\""}},
+       "method = \"arkode-explicit\"\ntable = \"ARKODE_KVAERNO_4_2_3\"",
+       "s.toml:9:9: key 'integrator.table': ",
+       {"explicit Butcher table"}},
+      {"method = \"explicit\"",
+       "method = \"arkode-implicit\"\ntable = \"ARKODE_KVAERNO_4_2_4\"",
+       "s.toml:9:9: key 'integrator.table': ",
+       {"diagonally implicit Butcher table", "did you mean 'ARKODE_KVAERNO_4_2_3'?"}},
+      {"method = \"explicit\"",
+       "method = \"explicit\"\ntable = \"ARKODE_RK4\"",
+       "s.toml:9:9: key 'integrator.table': ",
+       {"found \"ARKODE_RK4\"", "name of a Butcher table"}},
+      {"method = \"explicit\"",
+       "method = \"arkode-explicit\"\ntable = \"ARKODE_KNOTH_WOLKE_3_3\"",
+       "s.toml:9:9: key 'integrator.table': ",
+       {"an embedding, or 'integrator.fixed_step'"}},
   });
 }
 
