@@ -16,7 +16,7 @@ class FiniteStrain {
     a_ = 2.0 + g[0] + g[3], b_ = g[2] - g[1];
     size_ = std::hypot(a_, b_);
     cosine_ = a_ / size_, sine_ = b_ / size_;
-    const double fall = -b_ * b_ / (size_ * (a_ + size_));  // cosine - 1
+    const double fall = a_ > 0.0 ? -b_ * b_ / (size_ * (a_ + size_)) : cosine_ - 1.0;  // cosine - 1
     e_ = {fall + cosine_ * g[0] + sine_ * g[2], fall + cosine_ * g[3] - sine_ * g[1], g[4],
           0.5 * (cosine_ * (g[1] + g[2]) + sine_ * (g[3] - g[0]))};
   }
