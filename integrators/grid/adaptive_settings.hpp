@@ -10,7 +10,7 @@ namespace vitrum {
 struct AdaptiveSettings {
   sundials::ButcherTable table;
   double tolerance = 1.0e-3;  ///< relative to the scales
-  GivenScales scales;
+  ErrorScales scales;
   std::optional<double> fixed_step, longest_step, shortest_step, first_step;  ///< s
 };
 

@@ -14,8 +14,9 @@ using sundials::ArkSolver;
 
 void ArkodeExplicit::prepare(System& system) {
   context_ = std::make_unique<sundials::Context>();
-  particles_ = std::make_unique<ParticleSystem>(system, error_scales(system, settings_.scales),
-                                                settings_.tolerance, settings_.table.oscillation_limit());
+  particles_ = std::make_unique<ParticleSystem>(system, settings_.scales, settings_.tolerance,
+                                                settings_.table.oscillation_limit());
+  tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
   sundials::ArkSettings ark;
   ark.fixed_step = settings_.fixed_step;
   if (settings_.longest_step) ark.longest_step = *settings_.longest_step;

@@ -19,6 +19,7 @@ class ArkodeExplicit final : public GridIntegrator {
   const IntegratorState& state() const override { return state_; }
   void restore(const IntegratorState& state) override { state_ = state; }
   bool estimates_errors() const override { return !settings_.fixed_step; }
+  double tolerated_energy(const System&) const override { return tolerated_energy_; }
   std::string advice(const System& system, double step) const override;
 
  private:
@@ -31,6 +32,7 @@ class ArkodeExplicit final : public GridIntegrator {
   std::unique_ptr<sundials::Context> context_;
   std::unique_ptr<ParticleSystem> particles_;
   std::unique_ptr<sundials::ArkSolver> solver_;
+  double tolerated_energy_ = 0.0;
   IntegratorCounters before_;  ///< work of earlier solvers (a resumed run)
 };
 

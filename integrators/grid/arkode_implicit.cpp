@@ -15,7 +15,8 @@ using sundials::ArkSolver;
 
 void ArkodeImplicit::prepare(System& system) {
   context_ = std::make_unique<sundials::Context>();
-  grid_ = std::make_unique<GridSystem>(system, error_scales(system, settings_.scales), settings_.tolerance);
+  grid_ = std::make_unique<GridSystem>(system, settings_.scales, settings_.tolerance);
+  tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
 }
 
 /// Phases up to a target are of equal length, and short enough for the fastest particle.

@@ -26,6 +26,7 @@ class ArkodeImplicit final : public GridIntegrator {
   const IntegratorState& state() const override { return state_; }
   void restore(const IntegratorState& state) override { state_ = state; }
   bool estimates_errors() const override { return !settings_.fixed_step; }
+  double tolerated_energy(const System&) const override { return tolerated_energy_; }
   std::string advice(const System& system, double step) const override;
 
  private:
@@ -44,6 +45,7 @@ class ArkodeImplicit final : public GridIntegrator {
   std::unique_ptr<sundials::ArkSolver> solver_;  ///< for the present pattern; null where nothing is free to move
   std::vector<double> carried_;  ///< the unknowns without a solver: the external work at most
   sundials::SparsePattern pattern_;
+  double tolerated_energy_ = 0.0;
   IntegratorCounters before_;  ///< work of earlier solvers
   double critical_step_ = 0.0;
 };

@@ -27,4 +27,11 @@ ErrorScales error_scales(const System& system, const GivenScales& given) {
   return scales;
 }
 
+double tolerated_energy(const System& system, const ErrorScales& scales, double tolerance) {
+  double mass = 0.0;
+  for (const Body& body : system.bodies)
+    for (const double m : body.particles.mass) mass += m;
+  return mass * tolerance * tolerance * scales.velocity * scales.velocity;
+}
+
 }  // namespace vitrum

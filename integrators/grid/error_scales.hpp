@@ -21,4 +21,7 @@ struct GivenScales {
 /// of prescribed boundary velocities, and of wave speed x strain scale.
 ErrorScales error_scales(const System& system, const GivenScales& given);
 
+/// Energy of all bodies at a velocity (and the strain of its wave) of `tolerance` times the scale.
+double tolerated_energy(const System& system, const ErrorScales& scales, double tolerance);
+
 }  // namespace vitrum

@@ -61,6 +61,8 @@ class GridIntegrator {
   virtual void restore(const IntegratorState& state) = 0;
   /// Whether state().error means something.
   virtual bool estimates_errors() const { return false; }
+  /// Energy of an error as large as is tolerated, J (per radian or per metre).
+  virtual double tolerated_energy(const System& /*system*/) const { return 0.0; }
   /// What to try when a run has become unstable. step: s, the last one.
   virtual std::string advice(const System& system, double step) const = 0;
 };

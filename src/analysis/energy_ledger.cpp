@@ -25,7 +25,16 @@ double stored_energy(const System& system) {
   return sum;
 }
 
-EnergyLedger::EnergyLedger(const System& system) {
+EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals) : totals_(totals) {
+  double mass = 0.0, speed = 0.0;
+  for (const Body& body : system.bodies)
+    for (const double m : body.particles.mass) mass += m;
+  for (const mpm::Boundary& wall : system.grid.boundaries())
+    speed = std::max(speed, std::hypot(wall.velocity[0], wall.velocity[1]));
+  driving_ = 0.5 * mass * speed * speed;
+}
+
+EnergyLedger::EnergyLedger(const System& system) : EnergyLedger(system, EnergyTotals{}) {
   totals_.kinetic = mpm::kinetic_energy(system);
   totals_.elastic = stored_energy(system);
   totals_.initial = totals_.kinetic + totals_.elastic;
@@ -44,8 +53,8 @@ void EnergyLedger::book(const System& system) {
     totals_.max_growth = std::max(totals_.max_growth, (r.kinetic + r.elastic) / totals_.initial);
 }
 
-double EnergyLedger::growth() const {
-  const double available = totals_.initial + std::max(totals_.external, 0.0);
+double EnergyLedger::growth(double allowance) const {
+  const double available = totals_.initial + std::max(totals_.external, 0.0) + driving_ + allowance;
   // A particle squeezed beyond nothing (tr e < -1.5) stores negative energy, which must not hide growth.
   const double present = totals_.kinetic + std::abs(totals_.elastic);
   // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with

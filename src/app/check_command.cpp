@@ -102,6 +102,16 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
         "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
         "\"usf\" and "
         "\"musl\" have");
+  if (method == GridMethod::arkode_implicit && scene.shape_functions != ShapeFunctions::bspline2)
+    for (const BodyDefinition& body : scene.bodies)
+      if (body.particles_per_cell == 1 && scene.integrator.remap > 20.0 * critical.step) {
+        list.push_back(fmt::format(
+            "integrator.remap: with one particle a cell (body '{}') the grid has motions that no particle sees and "
+            "only a remap removes; in phases of {:g} s they make bodies too soft; use particles_per_cell = 4 or "
+            "shorter phases",
+            body.name, scene.integrator.remap));
+        break;
+      }
   for (const MaterialParameters& m : scene.materials) {
     if (!m.decohesion || !m.von_mises) continue;
     // A plane on which the traction falls faster than the cell behind it can unload releases at once.

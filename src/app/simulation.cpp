@@ -27,7 +27,7 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       directory_(std::move(directory)),
       system_(std::move(system)),
       whole_(system_.axisymmetric ? 2.0 * std::numbers::pi : 1.0),
-      integrator_(make_grid_integrator(scene.integrator)),
+      integrator_(make_grid_integrator(scene.integrator, system_)),
       ledger_(system_),
       failure_(system_),
       watchdog_(scene.integrator.max_growth, *integrator_),
@@ -73,7 +73,7 @@ void Simulation::resume() {
   system_.constitutive_evaluations = state_.evaluations;
   system_.constitutive_events = state_.events;
   system_.constitutive_solver = state_.solver;
-  ledger_ = EnergyLedger(state_.energy);
+  ledger_ = EnergyLedger(system_, state_.energy);
   failure_.restore(state_.failure);
   integrator_->restore(state_.integrator);
   result_ = output::ResultFile::reopen(directory_, static_cast<std::size_t>(state_.result_steps));

@@ -79,7 +79,11 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.threads = system_.team->size();
   s.integrator_method = scene::name_of(scene::grid_method_names, scene_.integrator.method);
   s.constitutive_method = scene::name_of(scene::local_method_names, scene_.constitutive.method);
-  s.integrator = integrator_->state().counters;
+  const IntegratorState& integration = integrator_->state();
+  s.integrator = integration.counters;
+  if (integrator_->estimates_errors()) s.error = integration.error;
+  s.phases = integration.phases;
+  s.remap_loss = whole_ * integration.remap_loss;
   s.constitutive.evaluations = system_.constitutive_evaluations;
   s.constitutive.events = system_.constitutive_events;
   s.constitutive.solver = system_.constitutive_solver;
@@ -109,6 +113,11 @@ void Simulation::print_summary(const output::RunSummary& s) const {
       unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
   fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
              100.0 * e.relative_residual(), e.max_growth);
+  if (s.error)
+    fmt::print("estimated error of integration (sum of local errors / scale): position {:.2g}, velocity {:.2g}{}\n",
+               s.error->position, s.error->velocity,
+               s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
+                            : fmt::format(", strain {:.2g}", s.error->strain));
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)

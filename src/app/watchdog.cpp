@@ -13,7 +13,7 @@ std::optional<std::string> Watchdog::look(const System& system, const EnergyLedg
   const EnergyTotals& e = ledger.totals();
   if (!std::isfinite(e.kinetic + e.elastic + e.external + e.plastic + e.damage + e.fracture))
     return describe(system, "the energy is not finite") + "; " + integrator_.advice(system, step);
-  const double growth = ledger.growth();
+  const double growth = ledger.growth(integrator_.tolerated_energy(system));
   if (growth <= max_growth_) return std::nullopt;
   return describe(system,
                   fmt::format("kinetic + elastic energy has grown to {:.4g} times the energy put in (bound: "

@@ -34,9 +34,18 @@ const char* status_name(RunStatus status) {
   return "failed";
 }
 
-Json integrator_block(const std::string& method, const IntegratorCounters& counters) {
+Json error_block(const std::optional<ErrorEstimate>& error) {
+  if (!error) return nullptr;
+  return {{"total", number(error->total)},
+          {"position", number(error->position)},
+          {"velocity", number(error->velocity)},
+          {"strain", number(error->strain)}};
+}
+
+Json integrator_block(const RunSummary& summary) {
+  const IntegratorCounters& counters = summary.integrator;
   const auto step = [&counters](double value) { return counters.steps > 0 ? number(value) : Json(nullptr); };
-  return {{"method", method},
+  return {{"method", summary.integrator_method},
           {"steps", counters.steps},
           {"rejected", counters.rejected},
           {"rhs_evaluations", counters.rhs_evaluations},
@@ -47,7 +56,10 @@ Json integrator_block(const std::string& method, const IntegratorCounters& count
           {"limited_by",
            {{"stability", counters.limited_by_stability},
             {"accuracy", counters.limited_by_accuracy},
-            {"output", counters.limited_by_output}}}};
+            {"output", counters.limited_by_output}}},
+          {"error_estimate", error_block(summary.error)},
+          {"phases", summary.phases},
+          {"remap_loss", number(summary.remap_loss)}};
 }
 
 Json constitutive_block(const std::string& method, const ConstitutiveCounters& counters) {
@@ -145,7 +157,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
           {"particles", summary.particles},
           {"wall_seconds", number(summary.wall_seconds)},
           {"threads", summary.threads},
-          {"integrator", integrator_block(summary.integrator_method, summary.integrator)},
+          {"integrator", integrator_block(summary)},
           {"constitutive", constitutive_block(summary.constitutive_method, summary.constitutive)},
           {"energy", energy_block(summary.energy)},
           {"failure", failure_block(summary.failure)},

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct RunSummary {
   int threads = 1;
   std::string integrator_method, constitutive_method;  ///< by their scene names
   IntegratorCounters integrator;
+  std::optional<ErrorEstimate> error;  ///< none: the method makes no estimate
+  std::int64_t phases = 0;             ///< arkode-implicit
+  double remap_loss = 0.0;             ///< J, arkode-implicit
   ConstitutiveCounters constitutive;
   EnergyTotals energy;
   FailureReport failure;

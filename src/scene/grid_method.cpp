@@ -8,9 +8,9 @@
 namespace vitrum {
 namespace {
 
-AdaptiveSettings adaptive_settings(const IntegratorDefinition& i) {
-  return {butcher_table(i),  i.rtol,     {i.velocity_scale, i.strain_scale},
-          i.fixed_step,      i.max_step, i.min_step,
+AdaptiveSettings adaptive_settings(const IntegratorDefinition& i, const System& initial) {
+  return {butcher_table(i), i.rtol,     error_scales(initial, {i.velocity_scale, i.strain_scale}),
+          i.fixed_step,     i.max_step, i.min_step,
           i.initial_step};
 }
 
@@ -47,16 +47,17 @@ sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator) {
   return *table;
 }
 
-std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator) {
+std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator,
+                                                     const System& initial) {
   switch (integrator.method) {
     case GridMethod::explicit_steps:
       return std::make_unique<ExplicitIntegrator>(step_scheme(integrator.scheme), integrator.step,
                                                   integrator.courant);
     case GridMethod::arkode_explicit:
-      return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator));
+      return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator, initial));
     case GridMethod::arkode_implicit:
       return std::make_unique<ArkodeImplicit>(
-          adaptive_settings(integrator),
+          adaptive_settings(integrator, initial),
           RemapSettings{integrator.remap, integrator.remap_travel, integrator.remap_strain},
           linear_solver(integrator));
   }

@@ -17,7 +17,7 @@ class MpmRun final : private StepObserver {
  public:
   explicit MpmRun(const Scene& scene, int threads = 1)
       : system(build_system(scene, threads)),
-        integrator_(make_grid_integrator(scene.integrator)),
+        integrator_(make_grid_integrator(scene.integrator, system)),
         integrator(*integrator_),
         ledger(system) {}
   explicit MpmRun(const MpmScene& scene, int threads = 1)

@@ -75,7 +75,8 @@ TEST_CASE("A scene at rest has growth 1, and nothing hides a value that is not f
   s.record.kinetic = std::numeric_limits<double>::quiet_NaN();
   ledger.book(s);
   CHECK_FALSE(ledger.growth() <= 1.5);
-  EnergyLedger other(EnergyTotals{});
+  System nothing;
+  EnergyLedger other(nothing, EnergyTotals{});
   s.record.kinetic = std::numeric_limits<double>::infinity();
   other.book(s);
   CHECK_FALSE(other.growth() <= 1.5);
