@@ -40,6 +40,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
     size_ += arrays() * particles;
     for (auto& column : start_[n].strain) column.assign(particles, 0.0);
     start_[n].turn.assign(particles, 0.0);
+    last_strain_.emplace_back(particles, 0.0);
     if (!system.axisymmetric) start_[n].no_strain.assign(particles, 0.0);
   }
   if (works_) ++size_;
@@ -62,6 +63,7 @@ void ParticleSystem::begin(double* y) {
     for (std::size_t c = 0; c < 2; ++c)
       std::copy(p.velocity[c].begin(), p.velocity[c].end(), y + place(n, velocity + c));
   }
+  for (std::vector<double>& norms : last_strain_) std::fill(norms.begin(), norms.end(), 0.0);
   committed_time_ = system_.time;
   committed_work_ = 0.0;
 }
@@ -186,6 +188,9 @@ bool ParticleSystem::commit(double t, double* y) {
     for (std::size_t k = 0; k < 4; ++k) std::copy(e[k], e[k] + particles, start_[n].strain[k].begin());
     const double* w = y + place(n, turn());
     std::copy(w, w + particles, start_[n].turn.begin());
+    const auto& change = system_.bodies[n].particles.strain_increment;
+    for (std::size_t i = 0; i < particles; ++i)
+      last_strain_[n][i] = norm(SymmetricTensor{change[0][i], change[1][i], change[2][i], change[3][i]});
   }
   committed_time_ = t;
   system_.record.external_work = works_ ? y[size_ - 1] - committed_work_ : 0.0;
@@ -232,24 +237,28 @@ auto ParticleSystem::quantity_of(std::size_t array) -> Quantity {
   return array < velocity ? Quantity::displacement : array < strain ? Quantity::velocity : Quantity::strain;
 }
 
-double ParticleSystem::tolerance_of(Quantity quantity) const {
+double ParticleSystem::tolerance_of(Quantity quantity, std::size_t body, std::size_t particle) const {
   switch (quantity) {
     case Quantity::displacement:
       return tolerance_ * scales_.length;
     case Quantity::velocity:
       return tolerance_ * scales_.velocity;
     case Quantity::strain:
-      return tolerance_ * scales_.strain;
+      return tolerance_ * (scales_.strain + last_strain_[body][particle]);
   }
   return tolerance_;
 }
 
 void ParticleSystem::error_weights(double* weights) const {
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
-    for (std::size_t a = 0; a < arrays(); ++a) {
-      double* of = weights + place(n, a);
-      std::fill(of, of + system_.bodies[n].particles.size, 1.0 / tolerance_of(quantity_of(a)));
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    const std::size_t particles = system_.bodies[n].particles.size;
+    for (std::size_t a = 0; a < strain; ++a)
+      std::fill_n(weights + place(n, a), particles, 1.0 / tolerance_of(quantity_of(a), n, 0));
+    for (std::size_t i = 0; i < particles; ++i) {
+      const double weight = 1.0 / tolerance_of(Quantity::strain, n, i);
+      for (std::size_t a = strain; a < arrays(); ++a) weights[place(n, a) + i] = weight;
     }
+  }
   // The work follows from the others; it steers nothing.
   if (works_) weights[size_ - 1] = 0.0;
 }
@@ -260,9 +269,11 @@ void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) c
     const std::size_t particles = system_.bodies[n].particles.size;
     for (std::size_t a = 0; a < arrays(); ++a) {
       const auto group = static_cast<std::size_t>(quantity_of(a));
-      const double scale = tolerance_of(quantity_of(a)) / tolerance_;
       const double* of = errors + place(n, a);
-      for (std::size_t i = 0; i < particles; ++i) sums[group] += (of[i] / scale) * (of[i] / scale);
+      for (std::size_t i = 0; i < particles; ++i) {
+        const double relative = of[i] * tolerance_ / tolerance_of(quantity_of(a), n, i);
+        sums[group] += relative * relative;
+      }
       counts[group] += static_cast<double>(particles);
     }
   }
@@ -275,8 +286,10 @@ void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) c
 double ParticleSystem::tolerance_of(std::size_t unknown) const {
   if (works_ && unknown == size_ - 1) return std::numeric_limits<double>::infinity();
   for (std::size_t n = system_.bodies.size(); n-- > 0;)
-    if (unknown >= first_[n])
-      return tolerance_of(quantity_of((unknown - first_[n]) / system_.bodies[n].particles.size));
+    if (unknown >= first_[n]) {
+      const std::size_t particles = system_.bodies[n].particles.size, at = unknown - first_[n];
+      return tolerance_of(quantity_of(at / particles), n, at % particles);
+    }
   return tolerance_;
 }
 

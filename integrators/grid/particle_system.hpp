@@ -16,6 +16,9 @@ namespace vitrum {
 /// particle, turn (1); at the end the external work, where there can be any. The grid is scratch:
 ///   x' = sum N v_i,  v' = sum N f_i / m_i,  e' = R^T D R,  w' = spin,  with R the rotation by w,
 /// and the stress is the material's response to (committed state, strain since the last commit, time since then).
+/// Errors are relative to the cell, the scene's velocity scale, and its strain scale plus the particle's strain in the
+/// last step: where a step strains by much more than the elastic limit something flows or opens, and the stress
+/// depends on the direction of the strain rather than on its size.
 class ParticleSystem final : public sundials::ArkSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales. oscillation_limit: largest phase of an undamped
@@ -54,7 +57,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   }
   std::array<const double*, 4> strain_arrays(std::size_t body, const double* y) const;
   static Quantity quantity_of(std::size_t array);
-  double tolerance_of(Quantity quantity) const;
+  double tolerance_of(Quantity quantity, std::size_t body, std::size_t particle) const;
   void load(const double* y);
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
@@ -76,6 +79,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   };
   std::vector<Start> start_;  ///< by body
   std::vector<std::vector<std::size_t>> mirrored_;  ///< by body: particles of the trial beyond the axis
+  std::vector<std::vector<double>> last_strain_;  ///< by body: norm of each particle's strain in the last step
   double committed_time_ = 0.0, committed_work_ = 0.0;
 };
 

@@ -45,7 +45,9 @@ struct ArkSolver::Callbacks {
     });
   }
   static int weights(N_Vector, N_Vector weights, void* solver) {
-    N_VScale(1.0, self(solver).weights_.get(), weights);
+    ArkSolver& s = self(solver);
+    s.system_.error_weights(N_VGetArrayPointer(s.weights_.get()));
+    N_VScale(1.0, s.weights_.get(), weights);
     return 0;
   }
   static int stability(N_Vector y, sunrealtype t, sunrealtype* step, void* solver) {

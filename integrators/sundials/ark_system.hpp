@@ -15,7 +15,7 @@ class ArkSystem {
   /// False, or an exception: cannot be evaluated here; ARKODE then tries a shorter step. An exception reaches the
   /// caller of ArkSolver::step when no shorter step helps.
   virtual bool rates(double t, const double* y, double* rates) = 0;
-  /// 1 / (what counts as an error of one) for every component; taken once, at the start.
+  /// 1 / (what counts as an error of one) for every component; asked for before every step.
   virtual void error_weights(double* weights) const = 0;
   /// The longest stable step at y, s.
   virtual double stable_step(double /*t*/, const double* /*y*/) {
