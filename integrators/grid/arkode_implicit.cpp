@@ -84,6 +84,7 @@ bool ArkodeImplicit::take_step(System& system, double phase_end, double& length)
 
 bool ArkodeImplicit::advance(System& system, double target, StepObserver& observer) {
   if (!grid_) prepare(system);
+  solver_.reset();  // pivots and rates of convergence must not depend on what came before a checkpoint
   bool goes_on = true;
   while (goes_on && system.time < target) {
     const double end = phase_end(system, target);

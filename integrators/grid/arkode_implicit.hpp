@@ -16,7 +16,8 @@ struct RemapSettings {
 };
 
 /// The grid system under ARKODE's diagonally implicit Runge-Kutta methods: Lagrangian phases of some steps each,
-/// after which particles move and the grid begins anew.
+/// after which particles move and the grid begins anew. Every target starts the solver anew, so that a run resumed at
+/// one goes on as the uninterrupted run did.
 class ArkodeImplicit final : public GridIntegrator {
  public:
   ArkodeImplicit(const AdaptiveSettings& settings, const RemapSettings& remap, sundials::LinearSolverKind linear)
