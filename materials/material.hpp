@@ -75,8 +75,8 @@ struct ParticleEvent {
 };
 
 /// Pointers to the columns of a range of particles (structure of arrays). The state at the start of the
-/// increment is only read; that at its end may go to the same columns (the increment is committed) or to others
-/// (it is tried).
+/// increment is only read; that at its end may go to the same columns (the increment is committed) or to
+/// others (it is tried).
 struct ParticleColumns {
   std::array<const double*, 4> start_strain{};                  ///< elastic: rr, zz, tt, rz
   std::array<const double*, variable_count> start_variables{};  ///< by Variable; null: the material has none

@@ -63,8 +63,9 @@ void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
   if (step.failure == ArkSolver::Failure::error_test) {
     const double* errors = solver_->local_errors();
     const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());
-    cause = fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated",
-                        particles_->describe(worst), std::abs(errors[worst]), particles_->tolerance_of(worst));
+    cause =
+        fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated",
+                    particles_->describe(worst), std::abs(errors[worst]), particles_->tolerance_of(worst));
   }
   throw ComputationError(fmt::format(
       "the step has collapsed to {:.3g} s, {:.3g} of the critical step {:.4g} s; {}; try a larger "
@@ -73,9 +74,8 @@ void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
 }
 
 std::string ArkodeExplicit::advice(const System& /*system*/, double /*step*/) const {
-  return settings_.fixed_step
-             ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
-             : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
+  return settings_.fixed_step ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
+                              : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
 }
 
 }  // namespace vitrum

@@ -8,9 +8,9 @@
 
 namespace vitrum {
 
-/// The particle system under ARKODE's explicit Runge-Kutta methods, with steps chosen by the estimated error and
-/// bounded by the critical step, or fixed. Every target starts the method anew, so that a run resumed at one goes
-/// on as the uninterrupted run did.
+/// The particle system under ARKODE's explicit Runge-Kutta methods, with steps chosen by the estimated error
+/// and bounded by the critical step, or fixed. Every target starts the method anew, so that a run resumed at
+/// one goes on as the uninterrupted run did.
 class ArkodeExplicit final : public GridIntegrator {
  public:
   explicit ArkodeExplicit(const AdaptiveSettings& settings) : settings_(settings) {}

@@ -52,7 +52,8 @@ void ArkodeImplicit::begin_phase(System& system, double phase_end, double target
   solver_->set_shortest_step(std::max(settings_.shortest_step.value_or(0.0),
                                       shortest_sensible_step(critical_step_, system.time, target)));
   grid_->start(solver_->y());
-  const double first = state_.next_step > 0.0 ? state_.next_step : settings_.first_step.value_or(critical_step_);
+  const double first =
+      state_.next_step > 0.0 ? state_.next_step : settings_.first_step.value_or(critical_step_);
   solver_->start(system.time, std::min(first, phase_end - system.time));
 }
 
@@ -114,8 +115,8 @@ void ArkodeImplicit::fail(const ArkSolver::Step& step) const {
   if (step.failure == ArkSolver::Failure::error_test) {
     const double* errors = solver_->local_errors();
     const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());
-    cause = fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated", grid_->describe(worst),
-                        std::abs(errors[worst]), grid_->tolerance_of(worst));
+    cause = fmt::format("largest weighted error: {}, error {:.3g} where {:.3g} is tolerated",
+                        grid_->describe(worst), std::abs(errors[worst]), grid_->tolerance_of(worst));
   } else if (step.failure == ArkSolver::Failure::newton) {
     cause = "Newton's iteration does not converge";
     const std::vector<double>& correction = solver_->last_correction();
@@ -125,16 +126,17 @@ void ArkodeImplicit::fail(const ArkSolver::Step& step) const {
                            grid_->describe(worst), std::abs(correction[worst]), grid_->tolerance_of(worst));
     }
   }
-  throw ComputationError(fmt::format(
-      "the step has collapsed to {:.3g} s, {:.3g} of the explicit critical step {:.4g} s; {}; try a larger integrator.rtol (now {:g}), "
-      "a smaller integrator.remap (now {:g} s), or integrator.method = \"arkode-explicit\"",
-      step.length, step.length / critical_step_, critical_step_, cause, settings_.tolerance, remap_.duration));
+  throw ComputationError(
+      fmt::format("the step has collapsed to {:.3g} s, {:.3g} of the explicit critical step {:.4g} s; {}; "
+                  "try a larger integrator.rtol (now {:g}), "
+                  "a smaller integrator.remap (now {:g} s), or integrator.method = \"arkode-explicit\"",
+                  step.length, step.length / critical_step_, critical_step_, cause, settings_.tolerance,
+                  remap_.duration));
 }
 
 std::string ArkodeImplicit::advice(const System& /*system*/, double /*step*/) const {
-  return settings_.fixed_step
-             ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
-             : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
+  return settings_.fixed_step ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
+                              : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
 }
 
 }  // namespace vitrum

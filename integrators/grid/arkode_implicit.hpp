@@ -15,12 +15,13 @@ struct RemapSettings {
   double strain = 0.02;      ///< that a particle may strain, or turn (rad)
 };
 
-/// The grid system under ARKODE's diagonally implicit Runge-Kutta methods: Lagrangian phases of some steps each,
-/// after which particles move and the grid begins anew. Every target starts the solver anew, so that a run resumed at
-/// one goes on as the uninterrupted run did.
+/// The grid system under ARKODE's diagonally implicit Runge-Kutta methods: Lagrangian phases of some steps
+/// each, after which particles move and the grid begins anew. Every target starts the solver anew, so that a
+/// run resumed at one goes on as the uninterrupted run did.
 class ArkodeImplicit final : public GridIntegrator {
  public:
-  ArkodeImplicit(const AdaptiveSettings& settings, const RemapSettings& remap, sundials::LinearSolverKind linear)
+  ArkodeImplicit(const AdaptiveSettings& settings, const RemapSettings& remap,
+                 sundials::LinearSolverKind linear)
       : settings_(settings), remap_(remap), linear_(linear) {}
 
   bool advance(System& system, double target, StepObserver& observer) override;
@@ -43,7 +44,8 @@ class ArkodeImplicit final : public GridIntegrator {
   IntegratorState state_;
   std::unique_ptr<sundials::Context> context_;
   std::unique_ptr<GridSystem> grid_;
-  std::unique_ptr<sundials::ArkSolver> solver_;  ///< for the present pattern; null where nothing is free to move
+  std::unique_ptr<sundials::ArkSolver>
+      solver_;                   ///< for the present pattern; null where nothing is free to move
   std::vector<double> carried_;  ///< the unknowns without a solver: the external work at most
   sundials::SparsePattern pattern_;
   double tolerated_energy_ = 0.0;

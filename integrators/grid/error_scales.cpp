@@ -15,8 +15,8 @@ ErrorScales error_scales(const System& system, const GivenScales& given) {
     scales.strain = std::min(scales.strain, elastic_limit(body.material->parameters()));
     wave_speed = std::max(wave_speed, body.material->wave_speed());
     for (std::size_t i = 0; i < body.particles.size; ++i)
-      scales.velocity = std::max(
-          scales.velocity, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
+      scales.velocity =
+          std::max(scales.velocity, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
   }
   for (const mpm::Boundary& wall : system.grid.boundaries())
     for (std::size_t c = 0; c < 2; ++c)

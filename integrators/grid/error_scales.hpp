@@ -17,8 +17,8 @@ struct GivenScales {
   std::optional<double> velocity, strain;
 };
 
-/// strain: the least elastic limit of all materials. velocity: the largest of the initial speeds of particles,
-/// of prescribed boundary velocities, and of wave speed x strain scale.
+/// strain: the least elastic limit of all materials. velocity: the largest of the initial speeds of
+/// particles, of prescribed boundary velocities, and of wave speed x strain scale.
 ErrorScales error_scales(const System& system, const GivenScales& given);
 
 /// Energy of all bodies at a velocity (and the strain of its wave) of `tolerance` times the scale.

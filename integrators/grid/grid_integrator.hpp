@@ -15,8 +15,8 @@ struct IntegratorCounters {
   StepLimit last_limit = StepLimit::fixed;  ///< of the last step
 };
 
-/// Sums over all steps of the estimated local error, a root mean square over the unknowns of a group, relative
-/// to the scale of the group (not to the tolerance). Methods that make no estimate leave zeros.
+/// Sums over all steps of the estimated local error, a root mean square over the unknowns of a group,
+/// relative to the scale of the group (not to the tolerance). Methods that make no estimate leave zeros.
 struct ErrorEstimate {
   double position = 0.0;  ///< of particles, or displacement of nodes
   double velocity = 0.0;  ///< of particles, or of nodes
@@ -46,7 +46,8 @@ struct IntegratorState {
   std::int64_t segment_done = 0;   ///< of these, taken
   double next_step = 0.0;          ///< s, adaptive methods: the step to go on with; 0: none yet
   ErrorEstimate error;
-  double remap_loss = 0.0;  ///< kinetic energy lost between grid and particles so far, J (per radian or metre)
+  double remap_loss =
+      0.0;  ///< kinetic energy lost between grid and particles so far, J (per radian or metre)
   std::int64_t phases = 0;  ///< Lagrangian phases so far
   IntegratorCounters counters;
 };

@@ -66,9 +66,9 @@ bool GridSystem::deform(double t, const double* y) {
     const Deformation& d = deformations_[n];
     const auto& p = system_.bodies[n].particles;
     for (std::size_t i = 0; i < p.size && !changed; ++i) {
-      const SymmetricTensor e =
-          FiniteStrain({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]})
-              .strain();
+      const SymmetricTensor e = FiniteStrain({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i],
+                                              d.gradient[3][i], d.gradient[4][i]})
+                                    .strain();
       changed = e.rr != d.committed_strain[0][i] || e.zz != d.committed_strain[1][i] ||
                 e.tt != d.committed_strain[2][i] || e.rz != d.committed_strain[3][i];
     }
@@ -76,16 +76,18 @@ bool GridSystem::deform(double t, const double* y) {
   return changed;
 }
 
-/// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment to
-/// the frame of the present (as_committed), or back to that of the phase's start, where forces are computed.
+/// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment
+/// to the frame of the present (as_committed), or back to that of the phase's start, where forces are
+/// computed.
 void GridSystem::set_increments(bool as_committed) {
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
     for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
-      const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i], d.committed_strain[2][i],
-                                   d.committed_strain[3][i]};
+      const FiniteStrain f(
+          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i],
+                                   d.committed_strain[2][i], d.committed_strain[3][i]};
       const SymmetricTensor change = rotate(f.strain() - before, rotation_by(d.committed_turn[i]));
       p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
       p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
@@ -117,7 +119,8 @@ void GridSystem::try_stress(double t, bool changed) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
     for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const FiniteStrain f(
+          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
       const auto P = f.nominal({p.stress[0][i], p.stress[1][i], p.stress[2][i], p.stress[3][i]});
       p.stress[0][i] = P[0], p.stress[3][i] = P[1], p.stress_zr[i] = P[2], p.stress[1][i] = P[3];
     }
@@ -156,7 +159,8 @@ bool GridSystem::linearise(double t, const double* y) {
 }
 
 void GridSystem::form(double gamma, double* values) const {
-  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma K b_u.
+  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma
+  // K b_u.
   for (std::size_t k = 0; k < stiffness_values_.size(); ++k) values[k] = gamma * gamma * stiffness_values_[k];
   for (std::size_t k = 0; k < nodes_.size(); ++k) values[stiffness_.diagonal()[k]] += nodes_.mass[k];
 }
@@ -166,7 +170,8 @@ void GridSystem::reduce(double gamma, const double* b, double* c) const {
   for (std::size_t k = 0; k < n; ++k) c[k] = nodes_.mass[k] * b[n + k];
   const sundials::SparsePattern& pattern = stiffness_.pattern();
   for (std::size_t k = 0; k < n; ++k)
-    for (auto e = static_cast<std::size_t>(pattern.column[k]); e < static_cast<std::size_t>(pattern.column[k + 1]); ++e)
+    for (auto e = static_cast<std::size_t>(pattern.column[k]);
+         e < static_cast<std::size_t>(pattern.column[k + 1]); ++e)
       c[pattern.row[e]] -= gamma * stiffness_values_[e] * b[k];
 }
 
@@ -195,7 +200,8 @@ void GridSystem::commit(double t, const double* y) {
   for (std::size_t body = 0; body < system_.bodies.size(); ++body) {
     Deformation& d = deformations_[body];
     for (std::size_t i = 0; i < system_.bodies[body].particles.size; ++i) {
-      const FiniteStrain f({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const FiniteStrain f(
+          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
       const SymmetricTensor& e = f.strain();
       d.committed_strain[0][i] = e.rr, d.committed_strain[1][i] = e.zz;
       d.committed_strain[2][i] = e.tt, d.committed_strain[3][i] = e.rz;
@@ -231,17 +237,18 @@ double GridSystem::travel(const double* y) const {
   return way / system_.cell;
 }
 
-/// Error weights contain the root of the mass: what counts is the error of momentum and of the work that forces
-/// could do, not that of a node with next to no mass.
+/// Error weights contain the root of the mass: what counts is the error of momentum and of the work that
+/// forces could do, not that of a node with next to no mass.
 double GridSystem::weight_of_mass(std::size_t unknown) const {
   return std::sqrt(nodes_.mass[unknown % nodes_.size()] / mean_mass_);
 }
 
 double GridSystem::tolerance_of(std::size_t unknown) const {
   const std::size_t n = nodes_.size();
-  const double scale = unknown < n       ? scales_.strain * scales_.length
-                       : unknown < 2 * n ? scales_.velocity
-                                         : 1e6 * mean_mass_ * static_cast<double>(n) * scales_.velocity * scales_.velocity;
+  const double scale = unknown < n ? scales_.strain * scales_.length
+                       : unknown < 2 * n
+                           ? scales_.velocity
+                           : 1e6 * mean_mass_ * static_cast<double>(n) * scales_.velocity * scales_.velocity;
   return tolerance_ * scale / (unknown < 2 * n ? weight_of_mass(unknown) : 1.0);
 }
 
@@ -254,7 +261,8 @@ void GridSystem::add_errors(const double* errors, ErrorEstimate& estimate) const
   if (n == 0) return;
   double displacement = 0.0, velocity = 0.0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double u = errors[k] * tolerance_ / tolerance_of(k), v = errors[n + k] * tolerance_ / tolerance_of(n + k);
+    const double u = errors[k] * tolerance_ / tolerance_of(k),
+                 v = errors[n + k] * tolerance_ / tolerance_of(n + k);
     displacement += u * u, velocity += v * v;
   }
   const auto count = static_cast<double>(n);

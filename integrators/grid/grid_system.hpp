@@ -13,12 +13,13 @@
 namespace vitrum {
 
 /// The grid over one Lagrangian phase, in which particles keep their places and shape functions. Unknowns:
-/// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, and the
-/// external work where there can be any:
+/// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, and
+/// the external work where there can be any:
 ///   u' = v,  v' = f_i(u) / m_i,
-/// with the stress of each particle the material's response to (committed state, strain since the last commit, time
-/// since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are the derivative of the energy as a
-/// function of that strain, so that an elastic phase conserves energy for any rotation.
+/// with the stress of each particle the material's response to (committed state, strain since the last
+/// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
+/// the derivative of the energy as a function of that strain, so that an elastic phase conserves energy for
+/// any rotation.
 class GridSystem final : public sundials::ReducibleSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales.
@@ -38,14 +39,15 @@ class GridSystem final : public sundials::ReducibleSystem {
   void reduce(double gamma, const double* b, double* c) const override;
   void expand(double gamma, const double* b, const double* z, double* x) const override;
 
-  /// Where nothing is free to move, held nodes carry all particles along: fills y, which holds at most the external
-  /// work from `from` to `to` (Simpson's rule).
+  /// Where nothing is free to move, held nodes carry all particles along: fills y, which holds at most the
+  /// external work from `from` to `to` (Simpson's rule).
   void carry(double from, double to, std::vector<double>& y);
-  /// Makes the stress and the internal variables of y at time t the system's; fills the record of the step. Particles keep their
-  /// places; the record's kinetic energy is the grid's change added to the particles' at the start of the phase.
+  /// Makes the stress and the internal variables of y at time t the system's; fills the record of the step.
+  /// Particles keep their places; the record's kinetic energy is the grid's change added to the particles' at
+  /// the start of the phase.
   void commit(double t, const double* y);
-  /// Moves the particles: v += N (v_i - v_i at the start), x += N u_i. Returns the kinetic energy that is lost
-  /// thereby (never gained), J (per radian or per metre).
+  /// Moves the particles: v += N (v_i - v_i at the start), x += N u_i. Returns the kinetic energy that is
+  /// lost thereby (never gained), J (per radian or per metre).
   double end_phase(const double* y);
 
   /// Longest way of a node that matters (cells), largest strain or turn of a particle, since the phase began.
@@ -78,9 +80,9 @@ class GridSystem final : public sundials::ReducibleSystem {
   mpm::Stiffness stiffness_;
   std::vector<double> stiffness_values_;
   std::vector<std::vector<TangentEntries>> tangents_;
-  std::vector<Deformation> deformations_;           ///< by body
-  std::vector<mpm::ParticleGradient> gradients_;    ///< pointers into them
-  std::vector<double> start_velocity_;              ///< by node unknown
+  std::vector<Deformation> deformations_;         ///< by body
+  std::vector<mpm::ParticleGradient> gradients_;  ///< pointers into them
+  std::vector<double> start_velocity_;            ///< by node unknown
   double start_time_ = 0.0, committed_time_ = 0.0, committed_work_ = 0.0;
   double start_kinetic_ = 0.0, mean_mass_ = 0.0, deformation_ = 0.0;
 };

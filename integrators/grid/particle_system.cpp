@@ -100,14 +100,14 @@ bool ParticleSystem::set_increments(const double* y) {
     const std::array<const double*, 4> e = strain_arrays(n, y);
     const double* w = y + place(n, turn());
     bool same = std::equal(w, w + p.size, start.turn.begin());
-    for (std::size_t k = 0; k < 4; ++k) same = same && std::equal(e[k], e[k] + p.size, start.strain[k].begin());
+    for (std::size_t k = 0; k < 4; ++k)
+      same = same && std::equal(e[k], e[k] + p.size, start.strain[k].begin());
     changed = changed || !same;
     for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const SymmetricTensor change =
-            rotate({e[0][i] - start.strain[0][i], e[1][i] - start.strain[1][i],
-                    e[2][i] - start.strain[2][i], e[3][i] - start.strain[3][i]},
-                   rotation_by(start.turn[i]));
+        const SymmetricTensor change = rotate({e[0][i] - start.strain[0][i], e[1][i] - start.strain[1][i],
+                                               e[2][i] - start.strain[2][i], e[3][i] - start.strain[3][i]},
+                                              rotation_by(start.turn[i]));
         p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
         p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
         p.spin_increment[i] = w[i] - start.turn[i];

@@ -11,18 +11,18 @@
 
 namespace vitrum {
 
-/// The particles as a system of ordinary differential equations. Unknowns of each body, one array after another:
-/// displacement since `begin` (2), velocity (2), strain (4; plane strain: 3) in the frame that turns with the
-/// particle, turn (1); at the end the external work, where there can be any. The grid is scratch:
+/// The particles as a system of ordinary differential equations. Unknowns of each body, one array after
+/// another: displacement since `begin` (2), velocity (2), strain (4; plane strain: 3) in the frame that turns
+/// with the particle, turn (1); at the end the external work, where there can be any. The grid is scratch:
 ///   x' = sum N v_i,  v' = sum N f_i / m_i,  e' = R^T D R,  w' = spin,  with R the rotation by w,
-/// and the stress is the material's response to (committed state, strain since the last commit, time since then).
-/// Errors are relative to the cell, the scene's velocity scale, and its strain scale plus the particle's strain in the
-/// last step: where a step strains by much more than the elastic limit something flows or opens, and the stress
-/// depends on the direction of the strain rather than on its size.
+/// and the stress is the material's response to (committed state, strain since the last commit, time since
+/// then). Errors are relative to the cell, the scene's velocity scale, and its strain scale plus the
+/// particle's strain in the last step: where a step strains by much more than the elastic limit something
+/// flows or opens, and the stress depends on the direction of the strain rather than on its size.
 class ParticleSystem final : public sundials::ArkSystem {
  public:
-  /// system must outlive it. tolerance: relative to the scales. oscillation_limit: largest phase of an undamped
-  /// oscillation in one step (frequency x step) that the method stands.
+  /// system must outlive it. tolerance: relative to the scales. oscillation_limit: largest phase of an
+  /// undamped oscillation in one step (frequency x step) that the method stands.
   ParticleSystem(System& system, const ErrorScales& scales, double tolerance, double oscillation_limit);
 
   std::size_t size() const override { return size_; }
@@ -32,8 +32,8 @@ class ParticleSystem final : public sundials::ArkSystem {
 
   /// Starts from the system's particles and time.
   void begin(double* y);
-  /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a particle has
-  /// crossed the axis and was replaced by its image, in y as well; the solver must start anew.
+  /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a
+  /// particle has crossed the axis and was replaced by its image, in y as well; the solver must start anew.
   bool commit(double t, double* y);
 
   /// Adds the estimated local errors of a step.
@@ -77,9 +77,10 @@ class ParticleSystem final : public sundials::ArkSystem {
     std::vector<double> turn;
     std::vector<double> no_strain;  ///< takes the hoop rate of plane strain
   };
-  std::vector<Start> start_;  ///< by body
+  std::vector<Start> start_;                        ///< by body
   std::vector<std::vector<std::size_t>> mirrored_;  ///< by body: particles of the trial beyond the axis
-  std::vector<std::vector<double>> last_strain_;  ///< by body: norm of each particle's strain in the last step
+  std::vector<std::vector<double>>
+      last_strain_;  ///< by body: norm of each particle's strain in the last step
   double committed_time_ = 0.0, committed_work_ = 0.0;
 };
 

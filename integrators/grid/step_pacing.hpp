@@ -9,7 +9,8 @@ namespace vitrum {
 /// The shortest step worth trying: 1e-9 of the critical one, and above the rounding of the time. s
 double shortest_sensible_step(double critical_step, double time, double target);
 
-/// Enters a step and the solver's work into the counters of a run. before: the counters when the solver was made.
+/// Enters a step and the solver's work into the counters of a run. before: the counters when the solver was
+/// made.
 void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver::Counters& work,
                 const IntegratorCounters& before, bool fixed, IntegratorCounters& counters);
 

@@ -41,7 +41,8 @@ struct ArkSolver::Callbacks {
     if (self(solver).know_first_stage(rates)) return 0;
     ++self(solver).evaluations_;
     return guarded(solver, [&] {
-      return self(solver).system_.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates)) ? 0 : recoverable;
+      return self(solver).system_.rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates)) ? 0
+                                                                                             : recoverable;
     });
   }
   static int weights(N_Vector, N_Vector weights, void* solver) {
@@ -71,8 +72,8 @@ struct ArkSolver::Callbacks {
       return flag != 0 ? flag : std::abs(self(solver).reduced_->factor());
     });
   }
-  static int precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z, sunrealtype, sunrealtype, int,
-                          void* solver) {
+  static int precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z, sunrealtype, sunrealtype,
+                          int, void* solver) {
     return std::abs(self(solver).reduced_->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z)));
   }
 };
@@ -114,7 +115,8 @@ void ArkSolver::create(const Context& context, const ButcherTable& table) {
           "Butcher table");
   require(ARKStepSetUserData(m, this) == ARK_SUCCESS, "user data");
   require(ARKStepWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
-  // Lagrange interpolation needs no right-hand side beyond those of the stages (nothing is interpolated here).
+  // Lagrange interpolation needs no right-hand side beyond those of the stages (nothing is interpolated
+  // here).
   require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS, "interpolation");
   ARKStepSetMaxNumSteps(m, -1);
   ARKStepSetMaxHnilWarns(m, -1);
@@ -237,7 +239,7 @@ auto ArkSolver::step(double stop) -> Step {
     ARKStepGetCurrentStep(m, &length);
     result.length = length;
     const bool rates_failed = flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR;
-    result.failure = flag == ARK_ERR_FAILURE                              ? Failure::error_test
+    result.failure = flag == ARK_ERR_FAILURE                               ? Failure::error_test
                      : flag == ARK_CONV_FAILURE || flag == ARK_LSETUP_FAIL ? Failure::newton
                                                                            : Failure::rates;
     // ARKODE gives up where an explicit stage cannot be evaluated; a shorter step may be able to.

@@ -33,10 +33,10 @@ struct ArkSettings {
 enum class LinearSolverKind { klu, gmres_with_factor, gmres_with_diagonal };
 
 /// ARKODE's ARKStep for one system, one Butcher table; steps one at a time, so that the caller commits each.
-/// (ARKStep also for explicit tables: ERKStep of SUNDIALS 6.4 takes the rate of the last stage for that at the
-/// end of the step whenever c_s = 1, also where the last stage is not the solution. ARKStep in turn evaluates the
-/// first stage of every attempt; here it is known from the attempt before, or from the last stage where that is
-/// the solution.)
+/// (ARKStep also for explicit tables: ERKStep of SUNDIALS 6.4 takes the rate of the last stage for that at
+/// the end of the step whenever c_s = 1, also where the last stage is not the solution. ARKStep in turn
+/// evaluates the first stage of every attempt; here it is known from the attempt before, or from the last
+/// stage where that is the solution.)
 class ArkSolver {
  public:
   /// Explicit. context and system must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.

@@ -12,8 +12,8 @@ class ArkSystem {
   virtual ~ArkSystem() = default;
   /// Number of unknowns.
   virtual std::size_t size() const = 0;
-  /// False, or an exception: cannot be evaluated here; ARKODE then tries a shorter step. An exception reaches the
-  /// caller of ArkSolver::step when no shorter step helps.
+  /// False, or an exception: cannot be evaluated here; ARKODE then tries a shorter step. An exception reaches
+  /// the caller of ArkSolver::step when no shorter step helps.
   virtual bool rates(double t, const double* y, double* rates) = 0;
   /// 1 / (what counts as an error of one) for every component; asked for before every step.
   virtual void error_weights(double* weights) const = 0;

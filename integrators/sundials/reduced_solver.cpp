@@ -20,7 +20,8 @@ ReducedSolver& self(SUNLinearSolver solver) {
 ReducedSolver::ReducedSolver(const Context& context, ReducibleSystem& system, Kind kind)
     : system_(system), kind_(kind) {
   const SparsePattern& pattern = system.pattern();
-  const auto n = static_cast<sunindextype>(pattern.size()), entries = static_cast<sunindextype>(pattern.row.size());
+  const auto n = static_cast<sunindextype>(pattern.size()),
+             entries = static_cast<sunindextype>(pattern.row.size());
   matrix_.reset(SUNSparseMatrix(n, n, entries, CSC_MAT, context.get()));
   require(matrix_ != nullptr, "matrix");
   std::copy(pattern.column.begin(), pattern.column.end(), SM_INDEXPTRS_S(matrix_.get()));

@@ -30,7 +30,8 @@ int linear_combination(int count, sunrealtype* c, N_Vector* terms, N_Vector resu
     int n = 0;
     if (done > 0) x[0] = z, factors[0] = 1.0, n = 1;
     for (; n < 8 && done < count; ++n, ++done)
-      x[static_cast<std::size_t>(n)] = N_VGetArrayPointer(terms[done]), factors[static_cast<std::size_t>(n)] = c[done];
+      x[static_cast<std::size_t>(n)] = N_VGetArrayPointer(terms[done]),
+      factors[static_cast<std::size_t>(n)] = c[done];
     switch (n) {
       case 1:
         combine<1>(factors.data(), x, z, size);

@@ -95,8 +95,8 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
     list.push_back(fmt::format(
         "integrator.{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
         "m/s, fastest particle {:.4g} m/s); energy will grow",
-        method == GridMethod::explicit_steps ? "step" : "fixed_step", step, step / critical.step, critical.step, critical.body, critical.wave_speed,
-        critical.travel_speed));
+        method == GridMethod::explicit_steps ? "step" : "fixed_step", step, step / critical.step,
+        critical.step, critical.body, critical.wave_speed, critical.travel_speed));
   if (method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
     list.push_back(
         "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
@@ -105,11 +105,13 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
   if (method == GridMethod::arkode_implicit && scene.shape_functions != ShapeFunctions::bspline2)
     for (const BodyDefinition& body : scene.bodies)
       if (body.particles_per_cell == 1 && scene.integrator.remap > 20.0 * critical.step) {
-        list.push_back(fmt::format(
-            "integrator.remap: with one particle a cell (body '{}') the grid has motions that no particle sees and "
-            "only a remap removes; in phases of {:g} s they make bodies too soft; use particles_per_cell = 4 or "
-            "shorter phases",
-            body.name, scene.integrator.remap));
+        list.push_back(
+            fmt::format("integrator.remap: with one particle a cell (body '{}') the grid has motions that no "
+                        "particle sees and "
+                        "only a remap removes; in phases of {:g} s they make bodies too soft; use "
+                        "particles_per_cell = 4 or "
+                        "shorter phases",
+                        body.name, scene.integrator.remap));
         break;
       }
   for (const MaterialParameters& m : scene.materials) {

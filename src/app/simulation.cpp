@@ -181,7 +181,8 @@ std::vector<output::SeriesValue> Simulation::series() const {
       {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)},
       {"step_size", "s", "last step", last_step_},
       {"error_estimate", "1",
-       "accumulated local error estimates of all unknowns (root mean square, relative to their scales, summed over "
+       "accumulated local error estimates of all unknowns (root mean square, relative to their scales, "
+       "summed over "
        "the steps); NaN: the method makes none",
        estimated(error.total)},
       {"error_position", "1", "the same of positions (nodal displacements), relative to the cell",
@@ -190,7 +191,8 @@ std::vector<output::SeriesValue> Simulation::series() const {
        estimated(error.velocity)},
       {"error_strain", "1", "the same of particle strains, relative to the scene's strain scale",
        estimated(error.strain)},
-      {"remap_loss", unit, "kinetic energy lost so far between grid and particles at remaps (arkode-implicit)",
+      {"remap_loss", unit,
+       "kinetic energy lost so far between grid and particles at remaps (arkode-implicit)",
        whole_ * integrator_->state().remap_loss},
       {"phases", "1", "Lagrangian phases so far (arkode-implicit)",
        static_cast<double>(integrator_->state().phases)},

@@ -60,10 +60,10 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
                "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
                100.0 * residual);
   else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
-    fmt::print(
-        stderr,
-        "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
-        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual), integrator_->advice(system_, last_step_));
+    fmt::print(stderr,
+               "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
+               residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+               integrator_->advice(system_, last_step_));
   if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
   if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
   return exit_status;
@@ -114,10 +114,11 @@ void Simulation::print_summary(const output::RunSummary& s) const {
   fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
              100.0 * e.relative_residual(), e.max_growth);
   if (s.error)
-    fmt::print("estimated error of integration (sum of local errors / scale): position {:.2g}, velocity {:.2g}{}\n",
-               s.error->position, s.error->velocity,
-               s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
-                            : fmt::format(", strain {:.2g}", s.error->strain));
+    fmt::print(
+        "estimated error of integration (sum of local errors / scale): position {:.2g}, velocity {:.2g}{}\n",
+        s.error->position, s.error->velocity,
+        s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
+                     : fmt::format(", strain {:.2g}", s.error->strain));
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)

@@ -35,7 +35,7 @@ void fill_field(System& system, const NodalUnknowns& unknowns, const double* val
       for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
         const std::int32_t k = unknowns.number[2 * n + c];
         const std::int16_t by = grid.constraint(c, n);
-        field[n] = k >= 0   ? values[k]
+        field[n] = k >= 0    ? values[k]
                    : by >= 0 ? seconds * grid.boundaries()[static_cast<std::size_t>(by)].velocity[c]
                              : 0.0;
       }
@@ -46,7 +46,8 @@ void fill_field(System& system, const NodalUnknowns& unknowns, const double* val
 void read_field(const System& system, const NodalUnknowns& unknowns, Field component_0, double* values) {
   const double* field[2] = {system.grid.field(component_0),
                             system.grid.field(static_cast<Field>(static_cast<std::size_t>(component_0) + 1))};
-  for (std::size_t k = 0; k < unknowns.size(); ++k) values[k] = field[unknowns.component[k]][unknowns.node[k]];
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    values[k] = field[unknowns.component[k]][unknowns.node[k]];
 }
 
 std::string describe_unknown(const System& system, const NodalUnknowns& u, std::size_t unknown) {
@@ -57,8 +58,8 @@ std::string describe_unknown(const System& system, const NodalUnknowns& u, std::
             j = block.row * block_side + static_cast<int>(n % block_nodes) / block_side;
   const double mean = std::accumulate(u.mass.begin(), u.mass.end(), 0.0) / static_cast<double>(u.size());
   const char* axes[2] = {system.axisymmetric ? "r" : "x", system.axisymmetric ? "z" : "y"};
-  return fmt::format("{} of the node at ({:.6g}, {:.6g}) m, mass {:.3g} of the mean", axes[u.component[unknown]],
-                     i * grid.cell(), j * grid.cell(), u.mass[unknown] / mean);
+  return fmt::format("{} of the node at ({:.6g}, {:.6g}) m, mass {:.3g} of the mean",
+                     axes[u.component[unknown]], i * grid.cell(), j * grid.cell(), u.mass[unknown] / mean);
 }
 
 }  // namespace vitrum::mpm

@@ -9,10 +9,10 @@ namespace vitrum::mpm {
 
 /// The velocity components of nodes that are neither empty nor held, numbered in the order of the blocks.
 struct NodalUnknowns {
-  std::vector<std::uint32_t> node;       ///< by unknown
-  std::vector<std::uint8_t> component;   ///< by unknown
-  std::vector<double> mass;              ///< by unknown, kg (per radian or per metre)
-  std::vector<std::int32_t> number;      ///< by 2 node + component; -1: no unknown
+  std::vector<std::uint32_t> node;      ///< by unknown
+  std::vector<std::uint8_t> component;  ///< by unknown
+  std::vector<double> mass;             ///< by unknown, kg (per radian or per metre)
+  std::vector<std::int32_t> number;     ///< by 2 node + component; -1: no unknown
 
   std::size_t size() const { return node.size(); }
 };
@@ -22,7 +22,8 @@ void number_unknowns(const System& system, NodalUnknowns& unknowns);
 
 /// Fills a vector field (its component 0; component 1 follows): unknowns from `values`, held components with
 /// `seconds` times their prescribed velocity, empty nodes with 0.
-void fill_field(System& system, const NodalUnknowns& unknowns, const double* values, double seconds, Field component_0);
+void fill_field(System& system, const NodalUnknowns& unknowns, const double* values, double seconds,
+                Field component_0);
 /// The other way round: the unknowns of a field.
 void read_field(const System& system, const NodalUnknowns& unknowns, Field component_0, double* values);
 

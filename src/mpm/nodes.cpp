@@ -20,16 +20,18 @@ void impose(Grid& grid, std::size_t block, Field component_0) {
   }
 }
 
-/// Work (J per radian or metre, over a second) of gravity on every node and of the reaction -(f + m g) that keeps a
-/// node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity) nodes and the
-/// axis do no work. In the order of the blocks.
+/// Work (J per radian or metre, over a second) of gravity on every node and of the reaction -(f + m g) that
+/// keeps a node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity) nodes
+/// and the axis do no work. In the order of the blocks.
 double external_power(const System& system, Field from, Field to) {
   const Grid& grid = system.grid;
   if (!has_external_work(system)) return 0.0;
   const double* mass = grid.field(Field::mass);
   double power = 0.0;
   for (std::size_t c = 0; c < 2; ++c) {
-    const auto component = [&](Field f) { return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c)); };
+    const auto component = [&](Field f) {
+      return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c));
+    };
     const double *force = component(Field::force_0), *v = component(from), *w = component(to);
     for (std::size_t n = 0; n < grid.blocks().size() * block_nodes; ++n) {
       const double mean = 0.5 * (v[n] + w[n]), weight = mass[n] * system.gravity[c];

@@ -20,9 +20,9 @@ std::int64_t node_at(const Block& block, int i, int j) {
 /// What one node of a particle's stencil contributes.
 struct StencilNode {
   std::int64_t node;
-  int column, row;           ///< in the particle's block
+  int column, row;                 ///< in the particle's block
   double value, slope_r, slope_z;  ///< N, dN/dr, dN/dz
-  double parity;             ///< of the radial component: -1 for the image beyond the axis
+  double parity;                   ///< of the radial component: -1 for the image beyond the axis
 };
 
 /// Calls f(body, particle, stencil) for all particles, tile by tile.
@@ -44,7 +44,8 @@ void for_stencils(const System& system, F&& f) {
         std::size_t count = 0;
         for (std::size_t b = 0; b < S::count; ++b)
           for (std::size_t a = 0; a < S::count; ++a) {
-            int i = static_cast<int>(wr.first - std::int64_t{block.column} * block_side) + static_cast<int>(a);
+            int i =
+                static_cast<int>(wr.first - std::int64_t{block.column} * block_side) + static_cast<int>(a);
             const int j =
                 static_cast<int>(wz.first - std::int64_t{block.row} * block_side) + static_cast<int>(b);
             const bool image = axisymmetric && block.column == 0 && i < 0;
@@ -98,7 +99,8 @@ void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns) {
       for (std::size_t c = 0; c < 2; ++c) {
         const std::int32_t row = unknowns.number[2 * static_cast<std::size_t>(other) + c];
         if (row < 0) continue;
-        if (row == static_cast<std::int32_t>(k)) diagonal_.push_back(static_cast<std::int64_t>(pattern_.row.size()));
+        if (row == static_cast<std::int32_t>(k))
+          diagonal_.push_back(static_cast<std::int64_t>(pattern_.row.size()));
         pattern_.row.push_back(row);
         ++rows;
       }
@@ -122,7 +124,8 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
                             (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
       const TangentEntries& T = tangents[n][i];
       const double hoop = axisymmetric ? 1.0 / hoop_radius(p.position[0][i], grid.cell()) : 0.0;
-      // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears counted.
+      // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears
+      // counted.
       constexpr std::size_t count = std::tuple_size_v<std::remove_cvref_t<decltype(stencil)>>;
       std::array<std::array<double, 4>, 2 * count> B, TB;
       for (std::size_t a = 0; a < count; ++a) {

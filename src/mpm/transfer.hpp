@@ -51,8 +51,8 @@ struct ParticleRates {
   double* spin;                               ///< rad/s
   const double* turn;                         ///< rad, counter-clockwise from r to z, in
 };
-/// Rates of the particle system from nodal `velocity` and `acceleration`: x' = N v, v' = N a, e' = R^T D R with
-/// R the rotation by `turn`, w' = the in-plane spin. rates: by body.
+/// Rates of the particle system from nodal `velocity` and `acceleration`: x' = N v, v' = N a, e' = R^T D R
+/// with R the rotation by `turn`, w' = the in-plane spin. rates: by body.
 void gather_rates(System& system, std::span<const ParticleRates> rates);
 
 /// Where the gradient of one body goes: (rr, rz, zr, zz, tt), dv_i/dx_j; tt is v_r / r.

@@ -8,9 +8,10 @@
 
 namespace vitrum {
 
-/// The grid integrator that [integrator] names. initial: the system at the start of the scene (also for a run that
-/// is resumed), from which the scales of tolerances are taken.
-std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator, const System& initial);
+/// The grid integrator that [integrator] names. initial: the system at the start of the scene (also for a run
+/// that is resumed), from which the scales of tolerances are taken.
+std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator,
+                                                     const System& initial);
 
 /// The integrator's name for a scheme of the scene.
 StepScheme step_scheme(ExplicitScheme scheme);

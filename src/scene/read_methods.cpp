@@ -24,15 +24,16 @@ void exclude(const TableReader& table, std::string_view one, std::string_view ot
                                   join_path(table.path(), earlier)));
 }
 
-/// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps adapt. (A
-/// scene of explicit steps may hold either kind.)
+/// A table must be one that SUNDIALS has, of the kind that the method takes, with an embedding where steps
+/// adapt. (A scene of explicit steps may hold either kind.)
 void check_butcher_table(const TableReader& table, const IntegratorDefinition& integrator) {
   using sundials::TableKind;
   if (!integrator.table) return;
   std::vector<std::string> known = sundials::table_names(table_kind(integrator.method));
-  std::string expected = integrator.method == GridMethod::arkode_implicit
-                             ? fmt::format("SUNDIALS' name of a diagonally implicit Butcher table, such as {}", known[1])
-                             : fmt::format("SUNDIALS' name of an explicit Butcher table, such as {}", known[1]);
+  std::string expected =
+      integrator.method == GridMethod::arkode_implicit
+          ? fmt::format("SUNDIALS' name of a diagonally implicit Butcher table, such as {}", known[1])
+          : fmt::format("SUNDIALS' name of an explicit Butcher table, such as {}", known[1]);
   if (integrator.method == GridMethod::explicit_steps) {
     const std::vector<std::string> more = sundials::table_names(TableKind::diagonally_implicit);
     known.insert(known.end(), more.begin(), more.end());

@@ -68,7 +68,8 @@ KeyTable time() {
 KeyTable integrator() {
   static const IntegratorDefinition standard;
   static const std::vector<KeyInfo> keys{
-      required(choice_key("method", grid_method_names, "steps of one of the explicit schemes, or an adaptive method of ARKODE")),
+      required(choice_key("method", grid_method_names,
+                          "steps of one of the explicit schemes, or an adaptive method of ARKODE")),
       defaulted(choice_key("scheme", scheme_names,
                            "explicit: when particle stress is updated: first, last, or last after a second "
                            "projection of velocity"),
@@ -88,7 +89,8 @@ KeyTable integrator() {
       defaulted(number_key("rtol", fraction, "1", "arkode-*: tolerance relative to the scene's own scales"),
                 standard.rtol),
       number_key("velocity_scale", positive, "m/s",
-                 "arkode-*: scale of velocities; absent: the largest of initial speeds, prescribed velocities and wave "
+                 "arkode-*: scale of velocities; absent: the largest of initial speeds, prescribed "
+                 "velocities and wave "
                  "speed x strain scale"),
       number_key("strain_scale", positive, "1",
                  "arkode-*: scale of strains; absent: the least elastic limit of the scene's materials"),
@@ -117,8 +119,9 @@ KeyTable integrator() {
 KeyTable constitutive() {
   static const ConstitutiveDefinition standard;
   static const std::vector<KeyInfo> keys{
-      defaulted(choice_key("method", local_method_names, "return mappings, error-controlled substeps, or CVODE"),
-                "\"closed-form\""),
+      defaulted(
+          choice_key("method", local_method_names, "return mappings, error-controlled substeps, or CVODE"),
+          "\"closed-form\""),
       defaulted(number_key("rtol", fraction, "1", "substep, cvode: relative tolerance"), standard.rtol),
       defaulted(number_key("atol", fraction, "1",
                            "substep, cvode: absolute tolerance, times each state's own scale"),

@@ -7,7 +7,8 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// The adaptive methods at the ends of what a scene may ask for. Unit material: density, wave speed and cell are 1.
+// The adaptive methods at the ends of what a scene may ask for. Unit material: density, wave speed and cell
+// are 1.
 
 namespace {
 
@@ -15,7 +16,9 @@ struct Method {
   std::string name, lines;
 };
 
-std::string lines(double rtol, const std::string& more = "") { return fmt::format("rtol = {:g}\n{}", rtol, more); }
+std::string lines(double rtol, const std::string& more = "") {
+  return fmt::format("rtol = {:g}\n{}", rtol, more);
+}
 
 /// A ball falls on a block at a twentieth of the wave speed: contact, compression, rebound.
 MpmScene collision(const Method& method, const std::string& shape = "linear",
@@ -40,7 +43,8 @@ void require_sound(MpmRun& run, double end, double most_growth = 1.02) {
   REQUIRE(largest <= most_growth);
   for (const Body& b : run.system.bodies)
     for (std::size_t i = 0; i < b.particles.size; ++i)
-      REQUIRE(std::isfinite(b.particles.position[0][i] + b.particles.velocity[1][i] + b.particles.stress[0][i]));
+      REQUIRE(
+          std::isfinite(b.particles.position[0][i] + b.particles.velocity[1][i] + b.particles.stress[0][i]));
 }
 
 const char* const methods[] = {"arkode-explicit", "arkode-implicit"};
@@ -62,7 +66,8 @@ TEST_CASE("Tolerances from 0.1 to 1e-12", "[stability][adaptive]") {
       scene.tables = body("block", box({0.0, 0.0}, {3.0, 3.0}),
                           "particles_per_cell = 4\nvelocity_gradient = [[1e-3, 0.0], [0.0, -1e-3]]");
       MpmRun run(scene);
-      require_sound(run, 0.5, 1.0 + 1e-4);  // (the elastic law's energy is exact to third order in the strain)
+      require_sound(run, 0.5,
+                    1.0 + 1e-4);  // (the elastic law's energy is exact to third order in the strain)
     }
 }
 
@@ -75,7 +80,8 @@ TEST_CASE("Particles a rounding beside cell edges, and nodes of a mass fraction 
         MpmRun run(collision({method, lines(1e-2, "remap = 0.5")}, shape));
         for (Body& b : run.system.bodies)
           for (auto& column : b.particles.position)
-            for (std::size_t i = 0; i < column.size(); i += 3) column[i] = std::max(1e-13, std::round(column[i]) + beside);
+            for (std::size_t i = 0; i < column.size(); i += 3)
+              column[i] = std::max(1e-13, std::round(column[i]) + beside);
         require_sound(run, 20.0);
       }
 }
@@ -86,7 +92,8 @@ TEST_CASE("Bodies of one particle fly straight and bounce", "[stability][adaptiv
       for (const char* shape : {"linear", "gimp", "bspline2"}) {
         CAPTURE(method, geometry, shape);
         MpmScene scene;
-        scene.geometry = geometry, scene.shape = shape, scene.method = method, scene.pace = lines(1e-4, "remap = 0.5");
+        scene.geometry = geometry, scene.shape = shape, scene.method = method,
+        scene.pace = lines(1e-4, "remap = 0.5");
         scene.tables = body("grain", box({0.0, 0.0}, {1.0, 1.0}), "velocity = [0.0, -0.25]");
         MpmRun alone(scene);
         require_sound(alone, 8.0, 1.0 + 1e-12);
@@ -104,8 +111,8 @@ TEST_CASE("Bodies of one particle fly straight and bounce", "[stability][adaptiv
 TEST_CASE("Phases from a thousandth of a step to the whole run", "[stability][adaptive]") {
   for (const double remap : {1e-3, 1e-1, 10.0, 1e3}) {
     CAPTURE(remap);
-    MpmRun run(collision({"arkode-implicit", lines(1e-2, fmt::format("remap = {:g}\nremap_travel = {:g}", remap,
-                                                                     remap > 1.0 ? 1e3 : 0.25))}));
+    MpmRun run(collision({"arkode-implicit", lines(1e-2, fmt::format("remap = {:g}\nremap_travel = {:g}",
+                                                                     remap, remap > 1.0 ? 1e3 : 0.25))}));
     require_sound(run, remap < 1e-2 ? 2.0 : 40.0);
   }
 }
@@ -122,7 +129,8 @@ TEST_CASE("Nearly incompressible, and a million times softer than its neighbour"
     MpmScene pair = collision({method, lines(1e-2, "remap = 0.5")});
     const std::string ball = "name = \"ball\"\nmaterial = \"elastic\"";
     pair.tables.replace(pair.tables.find(ball), ball.size(), "name = \"ball\"\nmaterial = \"soft\"");
-    pair.tables += fmt::format("[material.soft]\ndensity = 1.0\nyoung = {:.17g}\npoisson = 0.25\n", 1e-6 * unit_young);
+    pair.tables +=
+        fmt::format("[material.soft]\ndensity = 1.0\nyoung = {:.17g}\npoisson = 0.25\n", 1e-6 * unit_young);
     MpmRun ratio(pair);
     require_sound(ratio, 20.0);
   }
@@ -133,7 +141,8 @@ TEST_CASE("A thousand times finer steps change nothing but rounding", "[stabilit
     const auto run_with = [&](double step) {
       MpmScene scene;
       scene.shape = "bspline2", scene.method = method;
-      scene.pace = fmt::format("order = 4\nrtol = 1e-9\nfixed_step = {:g}\nremap = 10.0\nremap_travel = 10.0", step);
+      scene.pace =
+          fmt::format("order = 4\nrtol = 1e-9\nfixed_step = {:g}\nremap = 10.0\nremap_travel = 10.0", step);
       scene.tables = body("block", box({0.0, 0.0}, {3.0, 3.0}),
                           "particles_per_cell = 4\nvelocity_gradient = [[1e-4, 5e-5], [0.0, -1e-4]]");
       MpmRun run(scene);
@@ -143,7 +152,8 @@ TEST_CASE("A thousand times finer steps change nothing but rounding", "[stabilit
     const auto distance = [](const auto& a, const auto& b) {
       double largest = 0.0;
       for (std::size_t c = 0; c < 2; ++c)
-        for (std::size_t i = 0; i < a[c].size(); ++i) largest = std::max(largest, std::abs(a[c][i] - b[c][i]));
+        for (std::size_t i = 0; i < a[c].size(); ++i)
+          largest = std::max(largest, std::abs(a[c][i] - b[c][i]));
       return largest / 3e-4;
     };
     const auto coarse = run_with(0.2), fine = run_with(0.02), finest = run_with(2e-4);
@@ -165,7 +175,8 @@ TEST_CASE("A collapsed step names what collapsed it", "[stability][adaptive]") {
       CAPTURE(text);
       CHECK(text.find("the step has collapsed to") != std::string::npos);
       CHECK(text.find("largest weighted") != std::string::npos);
-      CHECK((text.find("of body 'ba") != std::string::npos || text.find("of body 'block'") != std::string::npos ||
+      CHECK((text.find("of body 'ba") != std::string::npos ||
+             text.find("of body 'block'") != std::string::npos ||
              text.find("of the node at (") != std::string::npos));
       CHECK(text.find("integrator.rtol") != std::string::npos);
     }

@@ -17,9 +17,10 @@ Scene scene(const std::string& name, const std::vector<std::string>& overrides) 
 TEST_CASE("The reference case under arkode-explicit, order 3, rtol 1e-2, at 200, 400 and 800 m/s",
           "[stability][adaptive][reference]") {
   for (const double speed : {200.0, 400.0, 800.0}) {
-    MpmRun run(scene("paper/reference.toml",
-                     {"integrator.method=\"arkode-explicit\"", "integrator.order=3", "integrator.rtol=1e-2",
-                      fmt::format("body.1.velocity.1={}", -speed), fmt::format("time.start={:g}", -3e-3 / speed)}));
+    MpmRun run(
+        scene("paper/reference.toml",
+              {"integrator.method=\"arkode-explicit\"", "integrator.order=3", "integrator.rtol=1e-2",
+               fmt::format("body.1.velocity.1={}", -speed), fmt::format("time.start={:g}", -3e-3 / speed)}));
     run.system.time = -3e-3 / speed;
     double growth = 0.0;
     run.watch = [&](double) {
@@ -38,8 +39,8 @@ TEST_CASE("The reference case under arkode-explicit, order 3, rtol 1e-2, at 200,
 }
 
 TEST_CASE("The reference case under arkode-implicit never gains energy", "[stability][adaptive][reference]") {
-  MpmRun run(scene("paper/reference.toml", {"integrator.method=\"arkode-implicit\"", "integrator.order=2",
-                                            "integrator.rtol=1e-2"}));
+  MpmRun run(scene("paper/reference.toml",
+                   {"integrator.method=\"arkode-implicit\"", "integrator.order=2", "integrator.rtol=1e-2"}));
   double growth = 0.0;
   run.watch = [&](double) {
     growth = std::max(growth, run.ledger.growth());
@@ -65,13 +66,15 @@ double stress_difference(const MpmRun& a, const MpmRun& b) {
 }
 
 std::int64_t critical_steps(const MpmRun& run, double duration) {
-  return static_cast<std::int64_t>(duration / critical_step(run.system, stability_limit(StepScheme::musl)).step);
+  return static_cast<std::int64_t>(duration /
+                                   critical_step(run.system, stability_limit(StepScheme::musl)).step);
 }
 
 }  // namespace
 
-TEST_CASE("Slow loading: the pressed disk takes far fewer implicit steps, and its stress is that of explicit steps",
-          "[stability][adaptive][slow]") {
+TEST_CASE(
+    "Slow loading: the pressed disk takes far fewer implicit steps, and its stress is that of explicit steps",
+    "[stability][adaptive][slow]") {
   const std::string coarse = "space.cell=1e-3";
   MpmRun implicit(scene("slow/press.toml", {coarse}));
   MpmRun steps(scene("slow/press.toml", {coarse, "integrator.method=\"explicit\""}));
@@ -94,7 +97,8 @@ TEST_CASE("Slow loading: a plate bent to failure breaks alike under implicit and
   implicit.advance(duration), steps.advance(duration);
   const auto localised = [](const MpmRun& run) {
     int count = 0;
-    for (const double l : run.system.bodies[0].particles.variables[static_cast<std::size_t>(Variable::effective_length)])
+    for (const double l :
+         run.system.bodies[0].particles.variables[static_cast<std::size_t>(Variable::effective_length)])
       count += l > 0.0 ? 1 : 0;
     return count;
   };

@@ -33,8 +33,8 @@ TEST_CASE("A step three times the critical one is stopped by its growth, with a 
     CHECK(message->find("3 times the critical step") != std::string::npos);
     CHECK(message->find("integrator.step") != std::string::npos);
     // With no bound on growth only values that are not finite stop a run.
-    CHECK_FALSE(
-        app::Watchdog(std::numeric_limits<double>::infinity(), run.integrator).look(run.system, run.ledger, 1.0));
+    CHECK_FALSE(app::Watchdog(std::numeric_limits<double>::infinity(), run.integrator)
+                    .look(run.system, run.ledger, 1.0));
   }
 }
 

@@ -9,14 +9,16 @@ namespace vitrum::test {
 /// Velocity amplitude of `swinging_body`; in units of the wave speed.
 inline constexpr double swing = 1e-4;
 
-/// A free elastic block with a smooth velocity field whose particles stay within the pieces of their shape functions.
-/// integrator: lines of [integrator] after `method`.
+/// A free elastic block with a smooth velocity field whose particles stay within the pieces of their shape
+/// functions. integrator: lines of [integrator] after `method`.
 inline MpmRun swinging_body(const std::string& method, const std::string& integrator,
-                            const std::string& shape = "bspline2", const std::string& geometry = "plane-strain") {
+                            const std::string& shape = "bspline2",
+                            const std::string& geometry = "plane-strain") {
   MpmScene scene;
   scene.geometry = geometry, scene.shape = shape, scene.method = method;
   scene.pace = integrator;
-  if (method != "explicit") scene.pace += fmt::format("\nvelocity_scale = {}\nstrain_scale = {}", swing, swing);
+  if (method != "explicit")
+    scene.pace += fmt::format("\nvelocity_scale = {}\nstrain_scale = {}", swing, swing);
   scene.tables = body("block", box({0.0, 0.0}, {8.0, 6.0}), "particles_per_cell = 4");
   MpmRun run(scene);
   Particles& p = run.particles();

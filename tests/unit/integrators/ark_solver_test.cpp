@@ -14,9 +14,7 @@ namespace {
 /// Two pendulums: u'' = -k sin u, with Newton's equations reduced to a 2 x 2 matrix like those of the grid.
 class Pendulums final : public ReducibleSystem {
  public:
-  explicit Pendulums(double tolerance = 1e-3) : tolerance_(tolerance) {
-    pattern_ = {{0, 1, 2}, {0, 1}};
-  }
+  explicit Pendulums(double tolerance = 1e-3) : tolerance_(tolerance) { pattern_ = {{0, 1, 2}, {0, 1}}; }
   std::size_t size() const override { return 4; }
   bool rates(double t, const double* y, double* f) override {
     ++evaluations;
@@ -53,7 +51,9 @@ class Pendulums final : public ReducibleSystem {
   std::array<double, 2> slope_{};
 };
 
-ButcherTable table(TableKind kind, int of_order) { return *find_table(kind, table_of_order(kind, of_order)); }
+ButcherTable table(TableKind kind, int of_order) {
+  return *find_table(kind, table_of_order(kind, of_order));
+}
 
 std::unique_ptr<ArkSolver> solver(const Context& context, const ButcherTable& t, const ArkSettings& settings,
                                   Pendulums& system, LinearSolverKind linear = LinearSolverKind::klu) {
@@ -116,7 +116,8 @@ TEST_CASE("Every table shows its order with a fixed step", "[integrators][sundia
     }
 }
 
-TEST_CASE("Adaptive steps keep the tolerance, meet the stop and are limited by what is said", "[integrators][sundials]") {
+TEST_CASE("Adaptive steps keep the tolerance, meet the stop and are limited by what is said",
+          "[integrators][sundials]") {
   const Context context;
   const auto reference = exact(context);
   for (const TableKind kind : {TableKind::explicit_stages, TableKind::diagonally_implicit})
@@ -142,8 +143,9 @@ TEST_CASE("Adaptive steps keep the tolerance, meet the stop and are limited by w
   }
 }
 
-TEST_CASE("The first stage of an explicit step is evaluated once, and not at all after a table that ends in it",
-          "[integrators][sundials]") {
+TEST_CASE(
+    "The first stage of an explicit step is evaluated once, and not at all after a table that ends in it",
+    "[integrators][sundials]") {
   const Context context;
   for (const auto& [name, per_step, more] :
        {std::tuple("ARKODE_BOGACKI_SHAMPINE_4_2_3", 3, 1), std::tuple("ARKODE_HEUN_EULER_2_1_2", 2, 0)}) {

@@ -6,7 +6,8 @@
 
 using namespace vitrum::sundials;
 
-TEST_CASE("Every table on the list loads, and the tables that orders stand for have these orders", "[integrators]") {
+TEST_CASE("Every table on the list loads, and the tables that orders stand for have these orders",
+          "[integrators]") {
   for (const TableKind kind : {TableKind::explicit_stages, TableKind::diagonally_implicit}) {
     for (const std::string& name : table_names(kind)) {
       CAPTURE(name);
@@ -37,7 +38,8 @@ TEST_CASE("The tables that implicit orders stand for end in the solution, and da
     CHECK(table->ends_in_solution());
     // All implicit stages have one diagonal entry: one factored matrix serves them all.
     const auto s = static_cast<std::size_t>(table->stages);
-    for (std::size_t i = 1; i < s; ++i) CHECK(table->a[i * s + i] == Approx(table->a[(s - 1) * s + s - 1]).epsilon(1e-13));
+    for (std::size_t i = 1; i < s; ++i)
+      CHECK(table->a[i * s + i] == Approx(table->a[(s - 1) * s + s - 1]).epsilon(1e-13));
   }
 }
 

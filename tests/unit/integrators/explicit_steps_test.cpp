@@ -94,7 +94,8 @@ TEST_CASE("A Courant step follows the fastest particle and evens out the last tw
   CHECK(run.integrator.state().counters.limited_by_stability == 9);
   CHECK(run.integrator.state().counters.limited_by_output == 2);
   // USL gets a smaller fraction of the same.
-  CHECK(critical_step(run.system, stability_limit(StepScheme::usl)).step == Approx(std::sqrt(2.0) * expected));
+  CHECK(critical_step(run.system, stability_limit(StepScheme::usl)).step ==
+        Approx(std::sqrt(2.0) * expected));
 }
 
 TEST_CASE("A particle that passes the axis comes back as its mirror image", "[integrators]") {

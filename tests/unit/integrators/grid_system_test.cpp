@@ -87,7 +87,8 @@ TEST_CASE("Without stress the stiffness is the derivative of the forces", "[inte
       CAPTURE(geometry, shape);
       Random random(17);
       MpmScene scene = scene_of(geometry, shape);
-      scene.tables.replace(scene.tables.find("stress = "), std::string("stress = [0.001, -0.002, 0.0015, 0.0005]").size(), "");
+      scene.tables.replace(scene.tables.find("stress = "),
+                           std::string("stress = [0.001, -0.002, 0.0015, 0.0005]").size(), "");
       MpmRun run(scene);
       scatter_at_random(run.system, random, 0.3);
       GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);

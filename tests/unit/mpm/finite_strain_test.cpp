@@ -68,8 +68,8 @@ TEST_CASE("Change of strain against central differences; nominal stress is its a
     constexpr double h = 1e-6;
     const SymmetricTensor difference = (0.5 / h) * (at(h) - at(-h)), change = strain.change(d);
     REQUIRE(norm(difference - change) < 1e-8 * (1.0 + norm(change)));
-    const SymmetricTensor stress{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                                 random.uniform(-1.0, 1.0)};
+    const SymmetricTensor stress{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                                 random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     const auto P = strain.nominal(stress);
     REQUIRE(P[0] * d[0] + P[1] * d[1] + P[2] * d[2] + P[3] * d[3] + stress.tt * d[4] ==
             Approx(contract(stress, change)).margin(1e-13));

@@ -1,14 +1,14 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "support/mpm_measure.hpp"
 #include "support/adaptive_run.hpp"
+#include "support/mpm_measure.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
 
-// Local events (onset of yield, of damage) happen inside global steps and do not end them: the material finds them
-// within its increment, the embedded pair sees what is left of the kink.
+// Local events (onset of yield, of damage) happen inside global steps and do not end them: the material finds
+// them within its increment, the embedded pair sees what is left of the kink.
 
 namespace {
 
@@ -40,7 +40,8 @@ constexpr const char* damaging =
 
 /// After half a wave; local: a [constitutive] method.
 MpmRun finished(const std::string& model, const std::string& local, const std::string& lines) {
-  MpmRun run = with_model(model + fmt::format("[constitutive]\nmethod = \"{}\"\nrtol = 1e-9\n", local), lines, amplitude);
+  MpmRun run = with_model(model + fmt::format("[constitutive]\nmethod = \"{}\"\nrtol = 1e-9\n", local), lines,
+                          amplitude);
   run.advance(4.0);
   return run;
 }
@@ -51,7 +52,8 @@ double order_with_events(const std::string& model, const std::string& local) {
   };
   const MpmRun exact = with_step(0.0025);
   REQUIRE(exact.system.constitutive_events > 20);
-  const double coarse = difference(with_step(0.1), exact, amplitude), fine = difference(with_step(0.025), exact, amplitude);
+  const double coarse = difference(with_step(0.1), exact, amplitude),
+               fine = difference(with_step(0.025), exact, amplitude);
   CAPTURE(coarse, fine);
   return order(coarse, fine, 4.0);
 }
@@ -60,12 +62,13 @@ double order_with_events(const std::string& model, const std::string& local) {
 
 TEST_CASE("Events inside fixed steps: second order with local error control, and for damage",
           "[verification][events]") {
-  const double substepped = order_with_events(yielding, "substep"), damaged = order_with_events(damaging, "closed-form");
+  const double substepped = order_with_events(yielding, "substep"),
+               damaged = order_with_events(damaging, "closed-form");
   CAPTURE(substepped, damaged);
   CHECK(substepped > 1.7);
   CHECK(damaged > 1.7);
-  // A return mapping takes turning plastic paths in the direction of their end: first order, in every stage of
-  // every table alike, so that no estimate shows it.
+  // A return mapping takes turning plastic paths in the direction of their end: first order, in every stage
+  // of every table alike, so that no estimate shows it.
   const double returned = order_with_events(yielding, "closed-form");
   CAPTURE(returned);
   CHECK(returned > 0.8);
@@ -85,7 +88,8 @@ TEST_CASE("Events inside adaptive steps: with local error control the error foll
       const MpmRun run = finish(rtol);
       const double error = difference(run, tight, amplitude);
       const IntegratorCounters& c = run.integrator.state().counters;
-      CAPTURE(model, rtol, error, c.steps, c.rejected, run.system.constitutive_events, run.integrator.state().error.velocity);
+      CAPTURE(model, rtol, error, c.steps, c.rejected, run.system.constitutive_events,
+              run.integrator.state().error.velocity);
       CHECK(error < 100.0 * rtol);
       CHECK(error < last);
       last = error;

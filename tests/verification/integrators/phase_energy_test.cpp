@@ -10,8 +10,8 @@ using namespace vitrum;
 using namespace vitrum::sundials;
 using namespace vitrum::test;
 
-// Exact integration of a Lagrangian phase conserves kinetic energy of the grid + stored energy; the remap then
-// loses 1/2 dv.(M_lumped - M_consistent).dv, which is never negative.
+// Exact integration of a Lagrangian phase conserves kinetic energy of the grid + stored energy; the remap
+// then loses 1/2 dv.(M_lumped - M_consistent).dv, which is never negative.
 
 namespace {
 
@@ -43,8 +43,8 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
   GridSystem grid(system, {speed, speed, 1.0}, 1e-13);
   grid.begin_phase();
   const Context context;
-  ArkSolver solver(context, *find_table(TableKind::diagonally_implicit, "ARKODE_ESDIRK547L2SA2_7_4_5"), {}, grid,
-                   LinearSolverKind::klu);
+  ArkSolver solver(context, *find_table(TableKind::diagonally_implicit, "ARKODE_ESDIRK547L2SA2_7_4_5"), {},
+                   grid, LinearSolverKind::klu);
   solver.set_shortest_step(1e-9 * duration);
   grid.start(solver.y());
   const std::size_t n = grid.size() / 2;
@@ -70,7 +70,8 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
   for (std::size_t k = 0; k < n; ++k)
     for (auto at = grid.pattern().column[k]; at < grid.pattern().column[k + 1]; ++at)
       if (grid.pattern().row[static_cast<std::size_t>(at)] == static_cast<std::int64_t>(k))
-        e.lumped_minus_consistent += 0.5 * mass[static_cast<std::size_t>(at)] * std::pow(solver.y()[n + k] - start[k], 2);
+        e.lumped_minus_consistent +=
+            0.5 * mass[static_cast<std::size_t>(at)] * std::pow(solver.y()[n + k] - start[k], 2);
   const double loss = grid.end_phase(solver.y());
   e.after = mpm::kinetic_energy(system) + stored_energy(system);
   const auto now = velocities();
@@ -118,15 +119,17 @@ TEST_CASE("With strains of a percent, phases lose energy and gain at most what t
 TEST_CASE("A body that turns by a quarter in one phase is not strained", "[verification][energy]") {
   MpmScene scene;
   scene.method = "arkode-implicit";
-  scene.pace = "order = 3\nrtol = 1e-6\nvelocity_scale = 0.01\nstrain_scale = 1e-3\nremap = 1e9\nremap_travel = 1e9\nremap_strain = 1e9";
+  scene.pace =
+      "order = 3\nrtol = 1e-6\nvelocity_scale = 0.01\nstrain_scale = 1e-3\nremap = 1e9\nremap_travel = "
+      "1e9\nremap_strain = 1e9";
   scene.tables = body("block", box({-2.0, -2.0}, {2.0, 2.0}),
                       "particles_per_cell = 4\nvelocity_gradient = [[0.0, -1e-3], [1e-3, 0.0]]");
   MpmRun run(scene);
   const double quarter = 0.5 * 3.14159265358979 / 1e-3;
   run.advance(quarter);
   CHECK(run.integrator.state().phases == 1);
-  // Lumped masses turn a little more slowly than the particles would; strains are those of the centrifugal force,
-  // of the order (w R / c)^2 = 1e-5.
+  // Lumped masses turn a little more slowly than the particles would; strains are those of the centrifugal
+  // force, of the order (w R / c)^2 = 1e-5.
   double largest = 0.0;
   for (const auto& e : run.particles().elastic_strain)
     for (const double x : e) largest = std::max(largest, std::abs(x));

@@ -21,12 +21,17 @@ MpmRun finished(MpmRun run, double until = duration) {
   return run;
 }
 
-std::string table_line(const std::string& name) { return "table = \"" + name + "\"\n"; }
-std::string fixed(double step) { return fmt::format("fixed_step = {:.17g}\nrtol = 1e-12", step); }
+std::string table_line(const std::string& name) {
+  return "table = \"" + name + "\"\n";
+}
+std::string fixed(double step) {
+  return fmt::format("fixed_step = {:.17g}\nrtol = 1e-12", step);
+}
 
 /// The particle system's solution, by a method of order 8.
 MpmRun reference(const std::string& geometry = "plane-strain") {
-  return finished(swinging_body("arkode-explicit", table_line("ARKODE_FEHLBERG_13_7_8") + fixed(0.02), "bspline2", geometry));
+  return finished(swinging_body("arkode-explicit", table_line("ARKODE_FEHLBERG_13_7_8") + fixed(0.02),
+                                "bspline2", geometry));
 }
 
 }  // namespace
@@ -39,7 +44,8 @@ TEST_CASE("Every explicit table shows its order on the particle system", "[verif
     // Steps at which the error is neither rounding nor beyond the leading term.
     const double step = nominal <= 3 ? 0.05 : 0.2;
     const auto error = [&](double h) {
-      return velocity_difference(finished(swinging_body("arkode-explicit", table_line(name) + fixed(h))), exact);
+      return velocity_difference(finished(swinging_body("arkode-explicit", table_line(name) + fixed(h))),
+                                 exact);
     };
     const double coarse = error(step), fine = error(0.5 * step), measured = order(coarse, fine);
     CAPTURE(name, coarse, fine, measured);
@@ -47,14 +53,16 @@ TEST_CASE("Every explicit table shows its order on the particle system", "[verif
   }
 }
 
-TEST_CASE("The explicit orders in axisymmetry, where rotation and hoop strain take part", "[verification][order]") {
+TEST_CASE("The explicit orders in axisymmetry, where rotation and hoop strain take part",
+          "[verification][order]") {
   const MpmRun exact = reference("axisymmetric");
   for (int nominal = 2; nominal <= 5; ++nominal) {
     const double step = nominal <= 3 ? 0.05 : 0.1;
     const auto error = [&](double h) {
-      return velocity_difference(finished(swinging_body("arkode-explicit", fmt::format("order = {}\n", nominal) + fixed(h),
-                                                        "bspline2", "axisymmetric")),
-                                 exact);
+      return velocity_difference(
+          finished(swinging_body("arkode-explicit", fmt::format("order = {}\n", nominal) + fixed(h),
+                                 "bspline2", "axisymmetric")),
+          exact);
     };
     const double measured = order(error(step), error(0.5 * step));
     CAPTURE(nominal, measured);
@@ -62,7 +70,8 @@ TEST_CASE("The explicit orders in axisymmetry, where rotation and hoop strain ta
   }
 }
 
-TEST_CASE("USF, USL and MUSL converge to the particle system's solution, first order", "[verification][order]") {
+TEST_CASE("USF, USL and MUSL converge to the particle system's solution, first order",
+          "[verification][order]") {
   const MpmRun exact = reference();
   for (const char* scheme : {"usf", "usl", "musl"}) {
     const auto error = [&](double h) {
@@ -84,11 +93,12 @@ TEST_CASE("USF, USL and MUSL converge to the particle system's solution, first o
 
 namespace {
 
-/// A phase of the grid system of the swinging block and its exact solution for small strains: M u'' = -K u by its
-/// eigenvectors.
+/// A phase of the grid system of the swinging block and its exact solution for small strains: M u'' = -K u by
+/// its eigenvectors.
 class LinearPhase {
  public:
-  LinearPhase() : run_(swinging_body("explicit", "courant = 0.2")), grid_(run_.system, {swing, swing, 1.0}, 1e-10) {
+  LinearPhase()
+      : run_(swinging_body("explicit", "courant = 0.2")), grid_(run_.system, {swing, swing, 1.0}, 1e-10) {
     grid_.begin_phase();
     const auto n = static_cast<Eigen::Index>(grid_.size() / 2);
     std::vector<double> y(grid_.size()), zero(grid_.pattern().row.size()), one = zero;
@@ -105,14 +115,16 @@ class LinearPhase {
         if (grid_.pattern().row[e] == j) mass_(j) = zero[e];
       }
     const Eigen::VectorXd root = mass_.cwiseSqrt(), inverse = root.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse.asDiagonal() * K * inverse.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse.asDiagonal() * K *
+                                                               inverse.asDiagonal());
     const Eigen::VectorXd v0 = Eigen::Map<const Eigen::VectorXd>(y.data() + n, n);
     // Only the slow modes are excited: a step of theirs is a smooth motion.
     Eigen::VectorXd part = modes.eigenvectors().transpose() * root.cwiseProduct(v0);
     for (Eigen::Index k = 0; k < n; ++k)
       if (modes.eigenvalues()(k) > 1.0) part(k) = 0.0;
     start_ = inverse.cwiseProduct(modes.eigenvectors() * part);
-    for (Eigen::Index k = 0; k < n; ++k) part(k) *= std::cos(std::sqrt(std::max(0.0, modes.eigenvalues()(k))) * duration);
+    for (Eigen::Index k = 0; k < n; ++k)
+      part(k) *= std::cos(std::sqrt(std::max(0.0, modes.eigenvalues()(k))) * duration);
     end_ = inverse.cwiseProduct(modes.eigenvectors() * part);
   }
 
@@ -123,7 +135,7 @@ class LinearPhase {
     settings.fixed_step = step;
     settings.newton_iterations = 10;
     ArkSolver solver(context, *find_table(TableKind::diagonally_implicit, name), settings, grid_,
-                               LinearSolverKind::klu);
+                     LinearSolverKind::klu);
     const auto n = static_cast<std::size_t>(start_.size());
     std::fill(solver.y(), solver.y() + n, 0.0);
     // So small that the strain's square is below rounding.
@@ -153,7 +165,8 @@ TEST_CASE("Every diagonally implicit table shows its order on the grid system, a
   for (const std::string& name : table_names(TableKind::diagonally_implicit)) {
     const int nominal = find_table(TableKind::diagonally_implicit, name)->order;
     const double step = nominal <= 3 ? 0.1 : 0.4;
-    const double coarse = phase.error(name, step), fine = phase.error(name, 0.5 * step), measured = order(coarse, fine);
+    const double coarse = phase.error(name, step), fine = phase.error(name, 0.5 * step),
+                 measured = order(coarse, fine);
     CAPTURE(name, coarse, fine, measured);
     CHECK(std::abs(measured - nominal) < 0.2);
   }
@@ -164,8 +177,8 @@ TEST_CASE("The achieved error follows the tolerance, explicit", "[verification][
   for (int nominal = 2; nominal <= 5; ++nominal) {
     double last = 1.0;
     for (const double rtol : {1e-2, 1e-4, 1e-6, 1e-8}) {
-      const MpmRun run = finished(
-          swinging_body("arkode-explicit", fmt::format("order = {}\nrtol = {:g}\nmax_step = 4.0", nominal, rtol)));
+      const MpmRun run = finished(swinging_body(
+          "arkode-explicit", fmt::format("order = {}\nrtol = {:g}\nmax_step = 4.0", nominal, rtol)));
       const double error = velocity_difference(run, exact);
       CAPTURE(nominal, rtol, error);
       CHECK(error < 100.0 * rtol);
@@ -181,7 +194,8 @@ TEST_CASE("The achieved error follows the tolerance, explicit", "[verification][
 TEST_CASE("The achieved error follows the tolerance, implicit", "[verification][tolerance]") {
   // One phase, so that only the integration in time differs.
   const auto run = [](const std::string& lines) {
-    return finished(swinging_body("arkode-implicit", lines + "\nremap = 10.0\nremap_travel = 10.0\nremap_strain = 1.0"));
+    return finished(
+        swinging_body("arkode-implicit", lines + "\nremap = 10.0\nremap_travel = 10.0\nremap_strain = 1.0"));
   };
   const MpmRun exact = run("order = 5\nrtol = 1e-11");
   for (int nominal = 2; nominal <= 5; ++nominal) {
