@@ -14,7 +14,7 @@ namespace vitrum {
 /// A straight strain path, followed by its fraction in [0, 1].
 struct StrainPath {
   SymmetricTensor strain;  ///< whole increment
-  double duration;         ///< s
+  double duration = 0.0;   ///< s
   double tolerance = 0.0;  ///< relative error with which the state along it is known
 };
 

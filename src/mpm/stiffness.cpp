@@ -31,7 +31,7 @@ void for_stencils(const System& system, F&& f) {
   using S = Shape1<kind>;
   const Grid& grid = system.grid;
   const double per_cell = 1.0 / grid.cell();
-  std::array<StencilNode, static_cast<std::size_t>(S::count * S::count)> stencil;
+  std::array<StencilNode, static_cast<std::size_t>(S::count * S::count)> stencil{};
   for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile) {
     const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
     for (std::size_t n = 0; n < system.bodies.size(); ++n) {
@@ -127,7 +127,7 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
       // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears
       // counted.
       constexpr std::size_t count = std::tuple_size_v<std::remove_cvref_t<decltype(stencil)>>;
-      std::array<std::array<double, 4>, 2 * count> B, TB;
+      std::array<std::array<double, 4>, 2 * count> B{}, TB{};
       for (std::size_t a = 0; a < count; ++a) {
         const StencilNode& s = stencil[a];
         const SymmetricTensor r = deformation.change({s.slope_r, s.slope_z, 0.0, 0.0, s.value * hoop}),
