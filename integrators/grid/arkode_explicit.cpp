@@ -25,6 +25,9 @@ void ArkodeExplicit::prepare(System& system) {
 }
 
 void ArkodeExplicit::begin(const System& system, double target) {
+  if (settings_.fixed_step) require_above_rounding(*settings_.fixed_step, "fixed_step", system.time, target);
+  if (settings_.longest_step)
+    require_above_rounding(*settings_.longest_step, "max_step", system.time, target);
   double* y = solver_->y();
   particles_->begin(y);
   const double critical = particles_->stable_step(system.time, y);
@@ -43,7 +46,7 @@ bool ArkodeExplicit::advance(System& system, double target, StepObserver& observ
       const double left = target - system.time;
       solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *fixed - 1e-6)));
     }
-    const ArkSolver::Step step = solver_->step(target);
+    const ArkSolver::Step step = attempt(target);
     if (step.failure != ArkSolver::Failure::none) fail(system, step);
     if (!fixed) particles_->add_errors(solver_->local_errors(), state_.error);
     const bool reflected = particles_->commit(step.time, solver_->y());
@@ -57,6 +60,18 @@ bool ArkodeExplicit::advance(System& system, double target, StepObserver& observ
   return true;
 }
 
+/// A step; the work of one that fails is counted, too.
+ArkSolver::Step ArkodeExplicit::attempt(double target) {
+  try {
+    const ArkSolver::Step step = solver_->step(target);
+    count_work(solver_->counters(), before_, state_.counters);
+    return step;
+  } catch (...) {
+    count_work(solver_->counters(), before_, state_.counters);
+    throw;
+  }
+}
+
 void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
   const double critical = particles_->stable_step(system.time, solver_->y());
   std::string cause = "the right-hand side cannot be evaluated there";
@@ -68,9 +83,12 @@ void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
                     particles_->describe(worst), std::abs(errors[worst]), particles_->tolerance_of(worst));
   }
   throw ComputationError(fmt::format(
-      "the step has collapsed to {:.3g} s, {:.3g} of the critical step {:.4g} s; {}; try a larger "
-      "integrator.rtol (now {:g}) or smoother space.shape_functions",
-      step.length, step.length / critical, critical, cause, settings_.tolerance));
+      "{}; {}; {}", failed_step(step, settings_.fixed_step, settings_.shortest_step, critical), cause,
+      settings_.fixed_step
+          ? "try a smaller integrator.fixed_step"
+          : fmt::format("try a larger integrator.rtol (now {:g}){} or smoother space.shape_functions",
+                        settings_.tolerance,
+                        settings_.shortest_step ? ", a smaller integrator.min_step" : "")));
 }
 
 std::string ArkodeExplicit::advice(const System& /*system*/, double /*step*/) const {

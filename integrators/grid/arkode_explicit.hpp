@@ -25,6 +25,7 @@ class ArkodeExplicit final : public GridIntegrator {
  private:
   void prepare(System& system);
   void begin(const System& system, double target);
+  sundials::ArkSolver::Step attempt(double target);
   [[noreturn]] void fail(const System& system, const sundials::ArkSolver::Step& step);
 
   AdaptiveSettings settings_;

@@ -25,6 +25,11 @@ double ArkodeImplicit::phase_end(const System& system, double target) const {
   for (const Body& body : system.bodies)
     for (std::size_t i = 0; i < body.particles.size; ++i)
       fastest = std::max(fastest, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
+  // Held nodes may carry particles that do not know of their speed.
+  for (const mpm::Boundary& wall : system.grid.boundaries())
+    for (std::size_t c = 0; c < 2; ++c)
+      if (wall.fixed[c]) fastest = std::max(fastest, std::abs(wall.velocity[c]));
+  require_above_rounding(remap_.duration, "remap", system.time, target);
   double length = remap_.duration;
   if (fastest > 0.0) length = std::min(length, remap_.travel * system.cell / fastest);
   const double left = target - system.time;
@@ -35,6 +40,9 @@ double ArkodeImplicit::phase_end(const System& system, double target) const {
 void ArkodeImplicit::begin_phase(System& system, double phase_end, double target) {
   grid_->begin_phase();
   critical_step_ = critical_step(system, stability_limit(StepScheme::musl)).step;
+  if (settings_.fixed_step) require_above_rounding(*settings_.fixed_step, "fixed_step", system.time, target);
+  if (settings_.longest_step)
+    require_above_rounding(*settings_.longest_step, "max_step", system.time, target);
   if (grid_->pattern().size() == 0) {
     solver_.reset();
     return;
@@ -58,7 +66,7 @@ void ArkodeImplicit::begin_phase(System& system, double phase_end, double target
 }
 
 /// One step within a phase; whether it ended the phase by reaching phase_end. length: s.
-bool ArkodeImplicit::take_step(System& system, double phase_end, double& length) {
+bool ArkodeImplicit::take_step(System& system, double phase_end, bool ends_at_target, double& length) {
   IntegratorCounters& counters = state_.counters;
   if (!solver_) {
     length = phase_end - system.time;
@@ -72,11 +80,14 @@ bool ArkodeImplicit::take_step(System& system, double phase_end, double& length)
     const double left = phase_end - system.time;
     solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *settings_.fixed_step - 1e-6)));
   }
-  const ArkSolver::Step step = solver_->step(phase_end);
-  if (step.failure != ArkSolver::Failure::none) fail(step);
+  const ArkSolver::Step step = attempt(phase_end);
   if (!settings_.fixed_step) grid_->add_errors(solver_->local_errors(), state_.error);
   grid_->commit(step.time, solver_->y());
   count_step(step, solver_->counters(), before_, settings_.fixed_step.has_value(), counters);
+  if (counters.last_limit == StepLimit::output && !ends_at_target) {
+    counters.last_limit = StepLimit::remap;
+    --counters.limited_by_output, ++counters.limited_by_remap;
+  }
   state_.next_step = solver_->next_step();
   length = step.length;
   system.time = step.time;
@@ -93,7 +104,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
     bool phase_over = false;
     while (!phase_over) {
       double length = 0.0;
-      phase_over = take_step(system, end, length);
+      phase_over = take_step(system, end, end == target, length);
       if (phase_over) system.time = end;
       ++system.step_index;
       const double* y = solver_ ? solver_->y() : carried_.data();
@@ -110,7 +121,27 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
   return system.time >= target;
 }
 
-void ArkodeImplicit::fail(const ArkSolver::Step& step) const {
+/// A step. Where none can be taken the phase ends at the last one, so that particles stand where their stress
+/// belongs.
+ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
+  const auto leave = [&] {
+    count_work(solver_->counters(), before_, state_.counters);
+    state_.remap_loss += grid_->end_phase(solver_->y()), ++state_.phases;
+  };
+  ArkSolver::Step step;
+  try {
+    step = solver_->step(phase_end);
+  } catch (...) {
+    leave();
+    throw;
+  }
+  if (step.failure == ArkSolver::Failure::none) return step;
+  const std::string message = describe_failure(step);  // before the phase is left
+  leave();
+  throw ComputationError(message);
+}
+
+std::string ArkodeImplicit::describe_failure(const ArkSolver::Step& step) const {
   std::string cause = "the right-hand side cannot be evaluated there";
   if (step.failure == ArkSolver::Failure::error_test) {
     const double* errors = solver_->local_errors();
@@ -126,12 +157,15 @@ void ArkodeImplicit::fail(const ArkSolver::Step& step) const {
                            grid_->describe(worst), std::abs(correction[worst]), grid_->tolerance_of(worst));
     }
   }
-  throw ComputationError(
-      fmt::format("the step has collapsed to {:.3g} s, {:.3g} of the explicit critical step {:.4g} s; {}; "
-                  "try a larger integrator.rtol (now {:g}), "
-                  "a smaller integrator.remap (now {:g} s), or integrator.method = \"arkode-explicit\"",
-                  step.length, step.length / critical_step_, critical_step_, cause, settings_.tolerance,
-                  remap_.duration));
+  return fmt::format(
+      "{}; {}; {}", failed_step(step, settings_.fixed_step, settings_.shortest_step, critical_step_), cause,
+      settings_.fixed_step
+          ? "try a smaller integrator.fixed_step"
+          : fmt::format(
+                "try a larger integrator.rtol (now {:g}){}, a smaller integrator.remap (now {:g} s), or "
+                "integrator.method = \"arkode-explicit\"",
+                settings_.tolerance, settings_.shortest_step ? ", a smaller integrator.min_step" : "",
+                remap_.duration));
 }
 
 std::string ArkodeImplicit::advice(const System& /*system*/, double /*step*/) const {

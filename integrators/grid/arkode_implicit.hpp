@@ -35,8 +35,9 @@ class ArkodeImplicit final : public GridIntegrator {
   void prepare(System& system);
   void begin_phase(System& system, double phase_end, double target);
   double phase_end(const System& system, double target) const;
-  bool take_step(System& system, double phase_end, double& length);
-  [[noreturn]] void fail(const sundials::ArkSolver::Step& step) const;
+  bool take_step(System& system, double phase_end, bool ends_at_target, double& length);
+  sundials::ArkSolver::Step attempt(double phase_end);
+  std::string describe_failure(const sundials::ArkSolver::Step& step) const;
 
   AdaptiveSettings settings_;
   RemapSettings remap_;

@@ -57,7 +57,7 @@ void GridSystem::start(double* y) const {
   std::copy(start_velocity_.begin(), start_velocity_.end(), y + nodes_.size());
 }
 
-/// Displacement gradients at y. Whether any is not that of the last commit is told by set_increments.
+/// Displacement gradients at y. Whether any strain is not that of the last commit.
 bool GridSystem::deform(double t, const double* y) {
   mpm::fill_field(system_, nodes_, y, t - start_time_, Field::velocity_0);
   mpm::gather_gradient(system_, gradients_);

@@ -155,21 +155,26 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
     r.turn = y + place(n, turn());
   }
   mpm::gather_rates(system_, targets);
-  mirror_rates(rates);
+  mirror_rates(y, rates);
   if (works_) rates[size_ - 1] = power;
   double sum = 0.0;
   for (std::size_t i = 0; i < size_; ++i) sum += rates[i];
   return std::isfinite(sum);
 }
 
-/// Rates of the images become those of the particles beyond the axis.
-void ParticleSystem::mirror_rates(double* rates) const {
+/// Rates of the images become those of the particles beyond the axis: odd components change their sign. The
+/// strain rate of an image was turned by the particle's own turn, which is the opposite of the image's.
+void ParticleSystem::mirror_rates(const double* y, double* rates) const {
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
-    for (const std::size_t i : mirrored_[n])
-      for (const std::size_t array : {displacement, velocity, strain + 3, turn()}) {
-        double& rate = rates[place(n, array) + i];
-        rate = -rate;
-      }
+    for (const std::size_t i : mirrored_[n]) {
+      const auto at = [&](std::size_t array) -> double& { return rates[place(n, array) + i]; };
+      const Rotation turned = rotation_by(-y[place(n, turn()) + i]), back{turned.cosine, -turned.sine};
+      SymmetricTensor e = rotate({at(strain), at(strain + 1), at(strain + 2), at(strain + 3)}, back);
+      e.rz = -e.rz;
+      e = rotate(e, turned);
+      at(strain) = e.rr, at(strain + 1) = e.zz, at(strain + 2) = e.tt, at(strain + 3) = e.rz;
+      for (const std::size_t array : {displacement, velocity, turn()}) at(array) = -at(array);
+    }
 }
 
 bool ParticleSystem::commit(double t, double* y) {

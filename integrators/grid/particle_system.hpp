@@ -61,7 +61,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   void load(const double* y);
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
-  void mirror_rates(double* rates) const;
+  void mirror_rates(const double* y, double* rates) const;
   bool reflect(double* y);
 
   System& system_;

@@ -7,7 +7,8 @@ enum class StepLimit {
   fixed,      ///< its length was given
   stability,  ///< the critical step of the method
   accuracy,   ///< the error estimate
-  output,     ///< an output, a checkpoint, a remap, or the end
+  output,     ///< an output, a checkpoint, or the end
+  remap,      ///< the end of a Lagrangian phase
 };
 
 }  // namespace vitrum

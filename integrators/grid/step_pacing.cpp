@@ -1,14 +1,52 @@
 #include "integrators/grid/step_pacing.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "mpm/computation_error.hpp"
+
 namespace vitrum {
 
+namespace {
+
+/// A step that is still some roundings of the time long, s.
+double rounding_of(double time, double target) {
+  return 16.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time), std::abs(target));
+}
+
+}  // namespace
+
 double shortest_sensible_step(double critical_step, double time, double target) {
-  const double rounding = std::numeric_limits<double>::epsilon() * std::max(std::abs(time), std::abs(target));
-  return std::max(1e-9 * critical_step, 16.0 * rounding);
+  return std::max(1e-9 * critical_step, rounding_of(time, target));
+}
+
+void require_above_rounding(double step, const char* key, double time, double target) {
+  const double least = rounding_of(time, target);
+  if (step < least)
+    throw ComputationError(fmt::format(
+        "integrator.{} = {:.3g} s is below {:.3g} s, where steps cannot be told from the rounding of the "
+        "time {:.6g} s; choose it longer, or begin the scene nearer to t = 0",
+        key, step, least, time));
+}
+
+void count_work(const sundials::ArkSolver::Counters& work, const IntegratorCounters& before,
+                IntegratorCounters& c) {
+  c.rejected = before.rejected + work.attempts - work.steps;
+  c.rhs_evaluations = before.rhs_evaluations + work.right_hand_sides;
+  c.newton_iterations = before.newton_iterations + work.newton_iterations;
+  c.factorisations = before.factorisations + work.factorisations;
+}
+
+std::string failed_step(const sundials::ArkSolver::Step& step, const std::optional<double>& fixed,
+                        const std::optional<double>& shortest, double critical_step) {
+  if (fixed) return fmt::format("a step of integrator.fixed_step = {:.3g} s cannot be taken", *fixed);
+  if (shortest && step.length <= 1.01 * *shortest)
+    return fmt::format("the step would have to fall below integrator.min_step = {:.3g} s", *shortest);
+  return fmt::format("the step has collapsed to {:.3g} s, {:.3g} of the critical step {:.4g} s", step.length,
+                     step.length / critical_step, critical_step);
 }
 
 void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver::Counters& work,
@@ -17,10 +55,7 @@ void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver
   c.step_min = c.steps == 0 ? step.length : std::min(c.step_min, step.length);
   c.step_max = std::max(c.step_max, step.length);
   ++c.steps;
-  c.rejected = before.rejected + work.attempts - work.steps;
-  c.rhs_evaluations = before.rhs_evaluations + work.right_hand_sides;
-  c.newton_iterations = before.newton_iterations + work.newton_iterations;
-  c.factorisations = before.factorisations + work.factorisations;
+  count_work(work, before, c);
   if (fixed) {
     c.last_limit = StepLimit::fixed;
   } else if (step.limit == Limit::stop) {

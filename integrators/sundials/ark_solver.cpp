@@ -154,8 +154,8 @@ void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind li
     require(ARKStepSetPreconditioner(m, Callbacks::precondition_setup, Callbacks::precondition) == 0,
             "preconditioner");
   }
-  // A matrix for another gamma leaves an error in what is stiff, which the norm (of nodes with next to no mass, say)
-  // need not see: with ARKODE's own 0.2 a tolerance of 1e-6 gave errors of 3e-4.
+  // A matrix for another gamma leaves an error in what is stiff, which the norm (of nodes with next to no
+  // mass, say) need not see: with ARKODE's own 0.2 a tolerance of 1e-6 gave errors of 3e-4.
   ARKStepSetDeltaGammaMax(m, 1e-3);
   ARKStepSetMaxNonlinIters(m, settings_.newton_iterations);
   ARKStepSetNonlinConvCoef(m, settings_.newton_part);
@@ -274,7 +274,7 @@ auto ArkSolver::counters() const -> Counters {
   c.right_hand_sides = evaluations_;
   ARKStepGetNumStepAttempts(m, &n), c.attempts += n;
   ARKStepGetNumSteps(m, &n), c.steps += n;
-  if (reducible_) ARKStepGetNumNonlinSolvIters(m, &n), c.newton_iterations = n;  // never begins anew
+  if (reducible_) ARKStepGetNumNonlinSolvIters(m, &n), c.newton_iterations += n;
   if (reduced_) c.factorisations = reduced_->factorisations();
   return c;
 }

@@ -53,6 +53,10 @@ void EnergyLedger::book(const System& system) {
     totals_.max_growth = std::max(totals_.max_growth, (r.kinetic + r.elastic) / totals_.initial);
 }
 
+void EnergyLedger::refresh_kinetic(const System& system) {
+  totals_.kinetic = mpm::kinetic_energy(system);
+}
+
 double EnergyLedger::growth(double allowance) const {
   const double available = totals_.initial + std::max(totals_.external, 0.0) + driving_ + allowance;
   // A particle squeezed beyond nothing (tr e < -1.5) stores negative energy, which must not hide growth.

@@ -19,6 +19,8 @@ class EnergyLedger {
 
   /// Enters what system.record says of the last step.
   void book(const System& system);
+  /// Takes the kinetic energy of the particles as they stand: a run that stops between steps may have moved them.
+  void refresh_kinetic(const System& system);
 
   const EnergyTotals& totals() const { return totals_; }
   /// (kinetic + |elastic|) / (initial + positive external work + driving); 1 while there is no energy to

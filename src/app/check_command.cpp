@@ -149,8 +149,10 @@ int check_scene(const CheckOptions& options) {
                system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
                body["wave_speed"].get<double>());
   fmt::print("# {} particles, {:.3g} MB\n", system.particle_count(), 1e-6 * bytes_of(system));
-  fmt::print("# critical step {:.6g} s (body '{}')\n", facts["critical_step"].get<double>(),
-             facts["critical_body"].get<std::string>());
+  fmt::print(
+      "# critical step {}{:.6g} s (body '{}')\n",
+      scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",
+      facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>());
   if (facts["step"].is_number())
     fmt::print("# step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["step"].get<double>(),
                facts["step_to_critical"].get<double>(), facts["steps"].get<double>());

@@ -30,7 +30,7 @@ void Progress::step(double time, double step, const IntegratorCounters& c) {
   const double seconds = std::chrono::duration<double>(now - begun_).count();
   const double left = computed > 0.0 ? seconds / computed * (1.0 - part) : 0.0;
   const auto filled = static_cast<std::size_t>(part * 30.0);
-  constexpr std::array limits{"fixed step", "stability", "accuracy", "output"};
+  constexpr std::array limits{"fixed step", "stability", "accuracy", "output", "remap"};
   const char* limit = limits[static_cast<std::size_t>(c.last_limit)];
   fmt::print(
       stderr,

@@ -19,7 +19,7 @@ void visit_numbers(State& s, Visit&& visit) {
         i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations,
         i.counters.step_min, i.counters.step_max, i.counters.limited_by_stability,
         i.counters.limited_by_accuracy, i.counters.limited_by_output, i.next_step, i.error.position,
-        i.error.velocity, i.error.strain, i.error.total, i.remap_loss, i.phases);
+        i.error.velocity, i.error.strain, i.error.total, i.remap_loss, i.phases, i.counters.limited_by_remap);
   visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.energy_step, s.result_steps,
         s.evaluations, s.events, s.wall_seconds);
   auto& c = s.solver;

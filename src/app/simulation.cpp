@@ -131,6 +131,8 @@ bool Simulation::advance_to(double target) {
   } catch (const ComputationError& error) {
     failed_ = Watchdog::describe(system_, error.what());
   }
+  if (scene_.integrator.method == GridMethod::arkode_implicit && (failed_ || !reached))
+    ledger_.refresh_kinetic(system_);
   state_.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return reached;
 }

@@ -60,10 +60,13 @@ int Simulation::finish(output::RunStatus status, const std::string& message, int
                "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
                100.0 * residual);
   else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
-    fmt::print(stderr,
-               "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
-               residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
-               integrator_->advice(system_, last_step_));
+    fmt::print(
+        stderr, "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
+        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+        s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
+            ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
+              "particles a cell, or integrator.method = \"arkode-explicit\""
+            : integrator_->advice(system_, last_step_));
   if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
   if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
   return exit_status;

@@ -56,7 +56,8 @@ Json integrator_block(const RunSummary& summary) {
           {"limited_by",
            {{"stability", counters.limited_by_stability},
             {"accuracy", counters.limited_by_accuracy},
-            {"output", counters.limited_by_output}}},
+            {"output", counters.limited_by_output},
+            {"remap", counters.limited_by_remap}}},
           {"error_estimate", error_block(summary.error)},
           {"phases", summary.phases},
           {"remap_loss", number(summary.remap_loss)}};

@@ -157,11 +157,13 @@ std::string assign(toml::table& document, const std::vector<std::string>& keys, 
   return joined(keys, place.depth + 1);
 }
 
-/// `step` and `courant` exclude each other, so setting one of them drops the other.
+/// `step` and `courant`, `order` and `table` exclude each other, so setting one of them drops the other.
 void drop_alternative(toml::table& document, const std::string& path, Diagnostics& diagnostics) {
   std::string_view dropped;
   if (path == "integrator.step") dropped = "courant";
   if (path == "integrator.courant") dropped = "step";
+  if (path == "integrator.order") dropped = "table";
+  if (path == "integrator.table") dropped = "order";
   toml::table* integrator = document["integrator"].as_table();
   if (dropped.empty() || integrator == nullptr) return;
   integrator->erase(dropped);

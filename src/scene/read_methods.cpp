@@ -78,6 +78,9 @@ void read_integrator(const TableReader& document, Scene& scene) {
   if (table->read_choice("linear_solver", solver)) integrator.linear_solver = linear_solver_names[solver];
   if (table->read_choice("preconditioner", solver)) integrator.preconditioner = preconditioner_names[solver];
   table->read("remap", integrator.remap);
+  require_countable(*table, "fixed_step", integrator.fixed_step, scene);
+  require_countable(*table, "max_step", integrator.max_step, scene);
+  require_countable(*table, "remap", integrator.remap, scene);
   table->read("remap_travel", integrator.remap_travel);
   table->read("remap_strain", integrator.remap_strain);
   check_butcher_table(*table, integrator);

@@ -107,7 +107,7 @@ KeyTable integrator() {
           number_key("remap", positive, "s", "arkode-implicit: longest Lagrangian phase between remaps"),
           standard.remap),
       defaulted(number_key("remap_travel", positive, "cells",
-                           "arkode-implicit: a phase ends when a particle has moved so far"),
+                           "arkode-implicit: a phase ends when a node that matters has moved so far"),
                 standard.remap_travel),
       defaulted(number_key("remap_strain", positive, "1",
                            "arkode-implicit: a phase ends when a particle has strained or turned so much"),

@@ -162,6 +162,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Work adds up over starts", "[integrators][sundials]") {
+  const Context context;
+  Pendulums system(1e-6);
+  const auto s = solver(context, table(TableKind::diagonally_implicit, 3), {}, system);
+  after(*s, 1e-2);
+  const auto once = s->counters();
+  s->y()[0] = 1.0, s->y()[1] = 0.5, s->y()[2] = 0.0, s->y()[3] = 0.0;
+  after(*s, 1e-2);
+  const auto twice = s->counters();
+  CHECK(twice.steps == 2 * once.steps);
+  CHECK(twice.newton_iterations >= 2 * once.newton_iterations - 5);
+  CHECK(twice.right_hand_sides >= 2 * once.right_hand_sides - 5);
+  CHECK(twice.factorisations > once.factorisations);
+}
+
 TEST_CASE("GMRES with either preconditioner finds what KLU finds", "[integrators][sundials]") {
   const Context context;
   const auto with = [&](LinearSolverKind linear) {
