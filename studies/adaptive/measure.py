@@ -112,7 +112,7 @@ def draw(rows, path):
                       and r["method"] == f"{method} {order}" and r[key]]
             if points:
                 axis.loglog(*zip(*points), "o-", label=f"order {order}")
-        limits = np.array([1e-8, 1e-1])
+        limits = np.array([1e-7, 1e-1])
         axis.loglog(limits, limits, "k:", lw=1, label="error = rtol")
         axis.set(xlabel="integrator.rtol", title=method + (", one set of remaps" if key == "own_error" else ""))
         axis.legend(fontsize=8)
