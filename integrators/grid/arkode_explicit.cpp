@@ -75,6 +75,8 @@ ArkSolver::Step ArkodeExplicit::attempt(double target) {
 void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
   const double critical = particles_->stable_step(system.time, solver_->y());
   std::string cause = "the right-hand side cannot be evaluated there";
+  if (const auto unknown = particles_->not_finite())
+    cause += "; not finite: the rate of " + particles_->describe(*unknown);
   if (step.failure == ArkSolver::Failure::error_test) {
     const double* errors = solver_->local_errors();
     const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());

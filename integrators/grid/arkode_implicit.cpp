@@ -143,6 +143,8 @@ ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
 
 std::string ArkodeImplicit::describe_failure(const ArkSolver::Step& step) const {
   std::string cause = "the right-hand side cannot be evaluated there";
+  if (const auto unknown = grid_->not_finite())
+    cause += "; not finite: the rate of " + grid_->describe(*unknown);
   if (step.failure == ArkSolver::Failure::error_test) {
     const double* errors = solver_->local_errors();
     const std::size_t worst = worst_unknown(errors, solver_->weights(), solver_->size());

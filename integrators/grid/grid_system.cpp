@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mpm/finite_strain.hpp"
+#include "integrators/grid/step_pacing.hpp"
 
 namespace vitrum {
 
@@ -66,9 +66,7 @@ bool GridSystem::deform(double t, const double* y) {
     const Deformation& d = deformations_[n];
     const auto& p = system_.bodies[n].particles;
     for (std::size_t i = 0; i < p.size && !changed; ++i) {
-      const SymmetricTensor e = FiniteStrain({d.gradient[0][i], d.gradient[1][i], d.gradient[2][i],
-                                              d.gradient[3][i], d.gradient[4][i]})
-                                    .strain();
+      const SymmetricTensor e = d.at(i).strain();
       changed = e.rr != d.committed_strain[0][i] || e.zz != d.committed_strain[1][i] ||
                 e.tt != d.committed_strain[2][i] || e.rz != d.committed_strain[3][i];
     }
@@ -84,8 +82,7 @@ void GridSystem::set_increments(bool as_committed) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
     for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f(
-          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const FiniteStrain f = d.at(i);
       const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i],
                                    d.committed_strain[2][i], d.committed_strain[3][i]};
       const SymmetricTensor change = rotate(f.strain() - before, rotation_by(d.committed_turn[i]));
@@ -119,8 +116,7 @@ void GridSystem::try_stress(double t, bool changed) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
     for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f(
-          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const FiniteStrain f = d.at(i);
       const auto P = f.nominal({p.stress[0][i], p.stress[1][i], p.stress[2][i], p.stress[3][i]});
       p.stress[0][i] = P[0], p.stress[3][i] = P[1], p.stress_zr[i] = P[2], p.stress[1][i] = P[3];
     }
@@ -141,9 +137,8 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
   std::copy(y + n, y + 2 * n, rates);
   mpm::read_field(system_, nodes_, Field::acceleration_0, rates + n);
   if (works_) rates[2 * n] = power;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < size(); ++k) sum += rates[k];
-  return std::isfinite(sum);
+  not_finite_ = first_not_finite(rates, size());
+  return !not_finite_;
 }
 
 bool GridSystem::linearise(double t, const double* y) {
@@ -200,8 +195,7 @@ void GridSystem::commit(double t, const double* y) {
   for (std::size_t body = 0; body < system_.bodies.size(); ++body) {
     Deformation& d = deformations_[body];
     for (std::size_t i = 0; i < system_.bodies[body].particles.size; ++i) {
-      const FiniteStrain f(
-          {d.gradient[0][i], d.gradient[1][i], d.gradient[2][i], d.gradient[3][i], d.gradient[4][i]});
+      const FiniteStrain f = d.at(i);
       const SymmetricTensor& e = f.strain();
       d.committed_strain[0][i] = e.rr, d.committed_strain[1][i] = e.zz;
       d.committed_strain[2][i] = e.tt, d.committed_strain[3][i] = e.rz;

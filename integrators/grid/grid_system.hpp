@@ -1,10 +1,12 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "integrators/grid/error_scales.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/ark_system.hpp"
+#include "mpm/finite_strain.hpp"
 #include "mpm/nodal_unknowns.hpp"
 #include "mpm/stiffness.hpp"
 #include "mpm/transfer.hpp"
@@ -58,12 +60,18 @@ class GridSystem final : public sundials::ReducibleSystem {
   /// Adds the estimated local errors of a step.
   void add_errors(const double* errors, ErrorEstimate& estimate) const;
   std::string describe(std::size_t unknown) const;
+  /// The unknown whose rate was not finite when `rates` was last evaluated.
+  std::optional<std::size_t> not_finite() const { return not_finite_; }
   /// The error of an unknown that counts as one.
   double tolerance_of(std::size_t unknown) const;
 
  private:
   struct Deformation {
-    std::array<std::vector<double>, 5> gradient;
+    std::array<std::vector<double>, 5> gradient;  ///< (rr, rz, zr, zz, tt)
+    mpm::FiniteStrain at(std::size_t i) const {
+      return mpm::FiniteStrain(
+          {gradient[0][i], gradient[1][i], gradient[2][i], gradient[3][i], gradient[4][i]});
+    }
     std::array<std::vector<double>, 4> committed_strain;
     std::vector<double> committed_turn;
   };
@@ -74,6 +82,7 @@ class GridSystem final : public sundials::ReducibleSystem {
 
   System& system_;
   ErrorScales scales_;
+  std::optional<std::size_t> not_finite_;
   double tolerance_;
   bool works_;
   mpm::Trial trial_;

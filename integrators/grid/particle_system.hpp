@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   void add_errors(const double* errors, ErrorEstimate& estimate) const;
   /// Names an unknown: body, particle, place, quantity.
   std::string describe(std::size_t unknown) const;
+  /// The unknown whose rate was not finite when `rates` was last evaluated.
+  std::optional<std::size_t> not_finite() const { return not_finite_; }
   /// The error of an unknown that counts as one.
   double tolerance_of(std::size_t unknown) const;
 
@@ -66,6 +69,7 @@ class ParticleSystem final : public sundials::ArkSystem {
 
   System& system_;
   ErrorScales scales_;
+  std::optional<std::size_t> not_finite_;
   double tolerance_, oscillation_limit_;
   bool works_;  ///< external work is an unknown
   std::size_t size_ = 0;

@@ -67,6 +67,15 @@ void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver
   }
 }
 
+std::optional<std::size_t> first_not_finite(const double* values, std::size_t size) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size; ++i) sum += values[i];
+  if (std::isfinite(sum)) return std::nullopt;
+  for (std::size_t i = 0; i < size; ++i)
+    if (!std::isfinite(values[i])) return i;
+  return std::nullopt;  // a sum that overflows
+}
+
 std::size_t worst_unknown(const double* values, const double* weights, std::size_t size) {
   std::size_t worst = 0;
   double largest = -1.0;

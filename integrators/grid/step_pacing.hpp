@@ -26,6 +26,9 @@ std::string failed_step(const sundials::ArkSolver::Step& step, const std::option
 void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver::Counters& work,
                 const IntegratorCounters& before, bool fixed, IntegratorCounters& counters);
 
+/// The first value that is not finite.
+std::optional<std::size_t> first_not_finite(const double* values, std::size_t size);
+
 /// The unknown with the largest weighted value.
 std::size_t worst_unknown(const double* values, const double* weights, std::size_t size);
 
