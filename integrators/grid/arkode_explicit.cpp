@@ -93,9 +93,4 @@ void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
                         settings_.shortest_step ? ", a smaller integrator.min_step" : "")));
 }
 
-std::string ArkodeExplicit::advice(const System& /*system*/, double /*step*/) const {
-  return settings_.fixed_step ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
-                              : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
-}
-
 }  // namespace vitrum

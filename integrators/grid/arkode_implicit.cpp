@@ -170,9 +170,4 @@ std::string ArkodeImplicit::describe_failure(const ArkSolver::Step& step) const 
                 remap_.duration));
 }
 
-std::string ArkodeImplicit::advice(const System& /*system*/, double /*step*/) const {
-  return settings_.fixed_step ? fmt::format("try integrator.fixed_step = {:.2g}", 0.5 * *settings_.fixed_step)
-                              : fmt::format("try integrator.rtol = {:.2g}", 0.1 * settings_.tolerance);
-}
-
 }  // namespace vitrum

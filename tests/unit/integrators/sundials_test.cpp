@@ -11,22 +11,14 @@
 
 #include "catch.hpp"
 #include "integrators/sundials/context.hpp"
+#include "integrators/sundials/owned.hpp"
 
 using vitrum::sundials::Context;
+using vitrum::sundials::Owned;
 
 // The build links against SUNDIALS and KLU, and a context of ours carries their objects.
 
 namespace {
-
-template <auto destroy>
-struct Free {
-  template <class T>
-  void operator()(T* handle) const {
-    destroy(handle);
-  }
-};
-template <class Handle, auto destroy>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free<destroy>>;
 
 using Vector = Owned<N_Vector, N_VDestroy>;
 
