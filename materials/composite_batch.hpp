@@ -125,11 +125,10 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
         s.normal_z = turn.sine * r + turn.cosine * z;
       }
       store_variables(s, p, i);
-      const double volume = reference * (1.0 + trace(s.elastic_strain));
-      report.dissipated.plastic += volume * point.dissipation.plastic;
-      report.dissipated.damage += volume * point.dissipation.damage;
-      report.dissipated.fracture += volume * point.dissipation.fracture;
-      report.dissipated.snap_back += volume * point.dissipation.snap_back;
+      report.dissipated.plastic += reference * point.dissipation.plastic;
+      report.dissipated.damage += reference * point.dissipation.damage;
+      report.dissipated.fracture += reference * point.dissipation.fracture;
+      report.dissipated.snap_back += reference * point.dissipation.snap_back;
       for (std::size_t k = 0; k < point.event_count; ++k) report.events.push_back({i, point.events[k]});
     }
     const SymmetricTensor& e = s.elastic_strain;
@@ -139,7 +138,7 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
     p.elastic_strain[3][i] = e.rz;
     p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt,
     p.stress[3][i] = stress.rz;
-    stored += reference * stored_energy_of_volume(moduli, e);
+    stored += reference * moduli.energy(e);
   }
   report.elastic += stored;
 }

@@ -32,22 +32,14 @@ struct Moduli {
     return {volumetric + compliance * (sigma.rr - mean), volumetric + compliance * (sigma.zz - mean),
             volumetric + compliance * (sigma.tt - mean), compliance * sigma.rz};
   }
-  /// e : E : e / 2, J per m^3
+  /// e : E : e / 2, J per m^3 of reference volume: the stress is that of the reference volume (docs/theory.md,
+  /// 1.2), so that this is the work done on it at strains of any size.
   constexpr double energy(const SymmetricTensor& e) const {
     const double t = trace(e);
     const SymmetricTensor d = deviator(e);
     return 0.5 * bulk * t * t + shear * contract(d, d);
   }
 };
-
-/// Energy stored per reference volume V0, J/m^3, when the stress of `e` acts on the volume V0 (1 + tr e):
-/// exact for changes of volume and for changes of shape at constant volume. (The two together have no
-/// potential; docs/theory.md states the defect.)
-constexpr double stored_energy_of_volume(const Moduli& moduli, const SymmetricTensor& e) {
-  const double t = trace(e);
-  const SymmetricTensor d = deviator(e);
-  return moduli.bulk * t * t * (0.5 + t / 3.0) + (1.0 + t) * moduli.shear * contract(d, d);
-}
 
 constexpr Moduli elastic_moduli(const ElasticParameters& p) {
   return {p.young / (3.0 * (1.0 - 2.0 * p.poisson)), p.young / (2.0 * (1.0 + p.poisson))};

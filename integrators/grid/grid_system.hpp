@@ -21,7 +21,7 @@ namespace vitrum {
 /// with the stress of each particle the material's response to (committed state, strain since the last
 /// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
 /// the derivative of the energy as a function of that strain, so that an elastic phase conserves energy for
-/// any rotation, up to the third order of the strain that the law's own energy leaves open
+/// any rotation
 /// (docs/theory.md 1.2).
 class GridSystem final : public sundials::ReducibleSystem {
  public:

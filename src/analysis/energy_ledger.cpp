@@ -19,7 +19,7 @@ double stored_energy(const System& system) {
                           p.elastic_strain[3][i]};
       if (!crack_density.empty()) s.crack_density = crack_density[i];
       sum += p.mass[i] * specific_volume *
-             stored_energy_of_volume(body.material->secant_moduli(s), s.elastic_strain);
+             body.material->secant_moduli(s).energy(s.elastic_strain);
     }
   }
   return sum;
@@ -59,8 +59,7 @@ void EnergyLedger::refresh_kinetic(const System& system) {
 
 double EnergyLedger::growth(double allowance) const {
   const double available = totals_.initial + std::max(totals_.external, 0.0) + driving_ + allowance;
-  // A particle squeezed beyond nothing (tr e < -1.5) stores negative energy, which must not hide growth.
-  const double present = totals_.kinetic + std::abs(totals_.elastic);
+  const double present = totals_.kinetic + totals_.elastic;
   // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with
   // nothing.
   return available > 1e-280 ? present / available : (std::isfinite(present) ? 1.0 : present);

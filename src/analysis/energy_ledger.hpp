@@ -23,7 +23,7 @@ class EnergyLedger {
   void refresh_kinetic(const System& system);
 
   const EnergyTotals& totals() const { return totals_; }
-  /// (kinetic + |elastic|) / (initial + positive external work + driving); 1 while there is no energy to
+  /// (kinetic + elastic) / (initial + positive external work + driving); 1 while there is no energy to
   /// compare with. driving: kinetic energy that all bodies would have at the largest prescribed speed;
   /// without it the first steps of a piston, whose work is booked to the first order of the step, would look
   /// like growth. allowance: energy that an integrator may make within its tolerance, J (per radian or per

@@ -36,9 +36,7 @@ void scatter_tile(System& system, std::size_t tile) {
       const double m = p.mass[i], mv0 = m * p.velocity[0][i], mv1 = m * p.velocity[1][i];
       double rr = 0.0, zz = 0.0, rz = 0.0, zr = 0.0, hoop = 0.0;
       if constexpr (with_force) {
-        const double volume =
-            m * specific_volume *
-            (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+        const double volume = m * specific_volume;
         rr = -volume * p.stress[0][i] * per_cell, zz = -volume * p.stress[1][i] * per_cell;
         rz = -volume * p.stress[3][i] * per_cell, zr = -volume * stress_zr[i] * per_cell;
         if constexpr (axisymmetric) hoop = -volume * p.stress[2][i] / hoop_radius(r, grid.cell());

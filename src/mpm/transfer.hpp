@@ -17,7 +17,7 @@ void refresh_grid_for_positions(System& system);
 enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
 /// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
-/// + s_zz N,z), V = V0 (1 + tr e)).
+/// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
 void scatter(System& system, Scatter what);
 
 /// Nodal velocities from mass and momentum; held components get their prescribed values.

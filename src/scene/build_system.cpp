@@ -78,7 +78,7 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
       p.position[k][i] = x[k];
       p.velocity[k][i] = definition.velocity[k] + G[k][0] * x[0] + G[k][1] * x[1];
     }
-    p.mass[i] = density * seeds[i].area / (1.0 + trace(e)) * (axisymmetric ? x[0] : 1.0);
+    p.mass[i] = density * seeds[i].area * (axisymmetric ? x[0] : 1.0);
     const std::array<double, 4> strains{e.rr, e.zz, e.tt, e.rz},
         stresses{stress.rr, stress.zz, stress.tt, stress.rz};
     for (std::size_t k = 0; k < 4; ++k) p.elastic_strain[k][i] = strains[k], p.stress[k][i] = stresses[k];

@@ -111,8 +111,7 @@ TEST_CASE(
       const Particles& p = run.particles();
       double stress_power = 0.0;
       for (std::size_t i = 0; i < p.size; ++i) {
-        const double volume =
-            p.mass[i] * (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+        const double volume = p.mass[i];  // density 1
         const double density =
             (p.stress[0][i] * p.strain_increment[0][i] + p.stress[1][i] * p.strain_increment[1][i] +
              p.stress[2][i] * p.strain_increment[2][i] + 2.0 * p.stress[3][i] * p.strain_increment[3][i]) /

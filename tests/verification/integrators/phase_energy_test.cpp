@@ -92,7 +92,6 @@ TEST_CASE("A phase conserves energy, and its remap loses what the masses say: to
   for (const char* geometry : {"plane-strain", "axisymmetric"})
     for (const char* shape : {"linear", "gimp", "bspline2"})
       for (int repeat = 0; repeat < 3; ++repeat) {
-        // The stored energy is exact to third order in the strain: strains are far below 1e-12.
         const double speed = 1e-13;
         MpmRun run = random_bodies(geometry, shape, speed, random);
         const PhaseEnergies e = take_phase(run, 1.5, speed);
@@ -104,14 +103,16 @@ TEST_CASE("A phase conserves energy, and its remap loses what the masses say: to
       }
 }
 
-TEST_CASE("With strains of a percent, phases lose energy and gain at most what the law's energy leaves open",
-          "[verification][energy]") {
+TEST_CASE(
+    "With strains of ten percent a phase conserves energy as well: stress on the reference volume has a "
+    "potential",
+    "[verification][energy]") {
   Random random(29);
   for (const char* shape : {"linear", "bspline2"}) {
-    MpmRun run = random_bodies("axisymmetric", shape, 0.01, random);
-    const PhaseEnergies e = take_phase(run, 0.5, 0.01);
+    MpmRun run = random_bodies("axisymmetric", shape, 0.1, random);
+    const PhaseEnergies e = take_phase(run, 0.5, 0.1);
     CAPTURE(shape, (e.on_grid - e.before) / e.before, (e.after - e.before) / e.before);
-    CHECK(std::abs(e.on_grid - e.before) < 0.01 * e.before);
+    CHECK(std::abs(e.on_grid - e.before) < 1e-11 * e.before);
     CHECK(e.after < e.before);
   }
 }

@@ -47,7 +47,7 @@ TEST_CASE("Taylor bar: length, foot radius and volume", "[verification][mpm]") {
       lowest = std::min(lowest, p.position[1][i]);
       foot = std::max(foot, p.position[0][i]);
       volume += p.mass[i] / 8930.0 *
-                (1.0 + p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
+                std::exp(p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i]);
       largest_strain = std::max(largest_strain, plastic[i]);
     }
     // Particles are centres of their material.
