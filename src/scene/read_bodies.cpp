@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "scene/polygon_check.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
+#include "scene/shapes.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 
@@ -77,7 +79,7 @@ std::optional<Shape> read_shape(const TableReader& body) {
   const std::array<std::optional<Shape>, 4> shapes{read_body_box(body), read_disk(body), read_ring(body),
                                                    read_polygon(body)};
   const auto valid = std::ranges::find_if(shapes, [](const auto& shape) { return shape.has_value(); });
-  return valid != shapes.end() ? *valid : std::nullopt;
+  return given.size() == 1 && valid != shapes.end() ? *valid : std::nullopt;
 }
 
 double least_radius(const Shape& shape) {
@@ -119,15 +121,33 @@ void check_material(const TableReader& body, const BodyDefinition& definition, c
   body.fail("material", with_suggestion(known, definition.material, names));
 }
 
+/// Where bodies overlap, mass would count twice and stress be without a state of rest.
+void check_overlap(const TableReader& table, const BodyDefinition& body, const Scene& scene) {
+  if (!(scene.cell > 0.0) || body.particles_per_cell < 1) return;  // reported
+  const double spacing = scene.cell / std::sqrt(body.particles_per_cell);
+  for (const BodyDefinition& other : scene.bodies) {
+    const auto common = common_point(body.shape, other.shape, 0.5 * spacing, 1e-6 * spacing);
+    if (!common) continue;
+    const std::size_t shape = body.shape.index();
+    table.report(
+        shape_names[shape],
+        fmt::format(
+            "found it overlapping body '{}' at ({:.6g}, {:.6g}) m, expected bodies that at most touch",
+            other.name, (*common)[0], (*common)[1]));
+  }
+}
+
 BodyDefinition read_body(const TableReader& table, const Scene& scene) {
   BodyDefinition body;
   if (table.read("name", body.name) && body.name.empty()) table.fail("name", "a name that is not empty");
   if (table.read("material", body.material)) check_material(table, body, scene);
-  if (const auto shape = read_shape(table)) {
+  const auto shape = read_shape(table);
+  if (shape) {
     body.shape = *shape;
     if (scene.geometry == Geometry::axisymmetric) check_axis(table, *shape);
   }
   read_particles_per_cell(table, body.particles_per_cell);
+  if (shape) check_overlap(table, body, scene);
   table.read("velocity", body.velocity);
   read_velocity_gradient(table, body.velocity_gradient);
   table.read("stress", body.stress);

@@ -2,49 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scene/shapes.hpp"
 
 namespace vitrum {
 namespace {
-
-Box bounds(const Box& b) {
-  return b;
-}
-Box bounds(const Disk& d) {
-  return {{d.centre[0] - d.radius, d.centre[1] - d.radius}, {d.centre[0] + d.radius, d.centre[1] + d.radius}};
-}
-Box bounds(const Ring& r) {
-  return bounds(Disk{r.centre, r.outer});
-}
-Box bounds(const Polygon& p) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  Box b{{infinite, infinite}, {-infinite, -infinite}};
-  for (const Vector2& v : p.vertices)
-    for (std::size_t k = 0; k < 2; ++k)
-      b.min[k] = std::min(b.min[k], v[k]), b.max[k] = std::max(b.max[k], v[k]);
-  return b;
-}
-
-double squared_distance(const Vector2& a, const Vector2& b) {
-  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
-}
-bool inside(const Disk& d, const Vector2& x) {
-  return squared_distance(x, d.centre) < d.radius * d.radius;
-}
-bool inside(const Ring& r, const Vector2& x) {
-  const double s = squared_distance(x, r.centre);
-  return s < r.outer * r.outer && s >= r.inner * r.inner;
-}
-/// Even-odd rule.
-bool inside(const Polygon& p, const Vector2& x) {
-  bool in = false;
-  for (std::size_t i = 0, j = p.vertices.size() - 1; i < p.vertices.size(); j = i++) {
-    const Vector2 &a = p.vertices[i], &b = p.vertices[j];
-    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
-      in = !in;
-  }
-  return in;
-}
 
 std::vector<Seed> seed(const Box& box, double spacing) {
   std::array<long, 2> count{};
@@ -66,14 +28,15 @@ std::vector<Seed> seed(const Box& box, double spacing) {
 
 template <class Curved>
 std::vector<Seed> seed(const Curved& shape, double spacing) {
-  const Box box = bounds(shape);
+  const Shape whole(shape);
+  const Box box = bounds(whole);
   const auto first = [&](double low) { return static_cast<long long>(std::floor(low / spacing)); };
   const auto last = [&](double high) { return static_cast<long long>(std::ceil(high / spacing)); };
   std::vector<Seed> seeds;
   for (long long j = first(box.min[1]); j < last(box.max[1]); ++j)
     for (long long i = first(box.min[0]); i < last(box.max[0]); ++i) {
       const Vector2 x{(static_cast<double>(i) + 0.5) * spacing, (static_cast<double>(j) + 0.5) * spacing};
-      if (inside(shape, x)) seeds.push_back({x, spacing * spacing});
+      if (contains(whole, x)) seeds.push_back({x, spacing * spacing});
     }
   return seeds;
 }
@@ -81,7 +44,7 @@ std::vector<Seed> seed(const Curved& shape, double spacing) {
 }  // namespace
 
 double most_seeds(const Shape& shape, double cell, int per_side) {
-  const Box box = std::visit([](const auto& s) { return bounds(s); }, shape);
+  const Box box = bounds(shape);
   const double spacing = cell / per_side;
   return ((box.max[0] - box.min[0]) / spacing + 2.0) * ((box.max[1] - box.min[1]) / spacing + 2.0);
 }

@@ -2,20 +2,12 @@
 #include <string>
 
 #include "catch.hpp"
-#include "support/mpm_run.hpp"
+#include "support/reference_case.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
 
 // The paper's own step on its own mesh: c_p dt/h is 1.18 in glass and 1.10 in steel.
-
-namespace {
-
-Scene reference(const std::vector<std::string>& changes) {
-  return read_scene(std::string(VITRUM_SOURCE_DIR) + "/studies/paper/reference.toml", changes);
-}
-
-}  // namespace
 
 // Energy made by the numerics is swallowed by plastic flow as it arises, so that at the paper's step it shows
 // in the account, not in the growth of kinetic + elastic energy; a quarter more and it outruns the flow.

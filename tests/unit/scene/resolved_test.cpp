@@ -49,7 +49,7 @@ TEST_CASE("resolved scenes read back as the same scene", "[scene]") {
   require_round_trip(
       parse_scene(with(scene_text, disk, "ring = {centre = [1, 2], inner = 0, outer = 0.3}"), "s.toml"));
   require_round_trip(
-      parse_scene(with(scene_text, disk, "polygon = [[0, 0], [1, 0], [0.5, 0.1], [1, 1]]"), "s.toml"));
+      parse_scene(with(scene_text, disk, "polygon = [[0, 1], [1, 1], [0.5, 1.1], [1, 2]]"), "s.toml"));
 }
 
 TEST_CASE("numbers are written so that they read back bit for bit, as floats", "[scene]") {
