@@ -230,6 +230,12 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
       const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
       // Otherwise one goes on and relieves the other.
       if (together.fraction > 0.0 && opens && flows) return;
+      if (opens && !(together.fraction > 0.0)) {
+        // What flows behind the plane drives it beyond what it can bear, too.
+        mode.flowing = false;
+        if (!(rates(mode, s, path).fraction > 0.0)) return;
+        mode.flowing = true;
+      }
       EvolutionMode flow_alone = mode;
       flow_alone.plane = Plane::held;
       const bool by_flow = !opens && rates(flow_alone, s, path).plastic_strain > 0.0;

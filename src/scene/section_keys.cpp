@@ -12,6 +12,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr Bounds positive{0.0, infinite, true, true};
 constexpr Bounds finite{-infinite, infinite, true, true};
 constexpr Bounds fraction{0.0, 1.0, true, true};
+/// Below, the rounding of one step's sums exceeds what is asked for.
+constexpr Bounds tolerance{1.0e-13, 1.0, false, true};
 
 KeyInfo integer_key(std::string_view name, int lowest, int highest, int fallback, std::string_view meaning) {
   KeyInfo key = other_key(
@@ -86,7 +88,7 @@ KeyTable integrator() {
           standard.max_growth),
       integer_key("order", 2, 5, standard.order, "arkode-*: order of the Butcher table, instead of `table`"),
       text_key("table", "arkode-*: a Butcher table by its SUNDIALS name, instead of `order`"),
-      defaulted(number_key("rtol", fraction, "1", "arkode-*: tolerance relative to the scene's own scales"),
+      defaulted(number_key("rtol", tolerance, "1", "arkode-*: tolerance relative to the scene's own scales"),
                 standard.rtol),
       number_key("velocity_scale", positive, "m/s",
                  "arkode-*: scale of velocities; absent: the largest of initial speeds, prescribed "
@@ -122,7 +124,7 @@ KeyTable constitutive() {
       defaulted(
           choice_key("method", local_method_names, "return mappings, error-controlled substeps, or CVODE"),
           "\"closed-form\""),
-      defaulted(number_key("rtol", fraction, "1", "substep, cvode: relative tolerance"), standard.rtol),
+      defaulted(number_key("rtol", tolerance, "1", "substep, cvode: relative tolerance"), standard.rtol),
       defaulted(number_key("atol", fraction, "1",
                            "substep, cvode: absolute tolerance, times each state's own scale"),
                 standard.atol),
