@@ -11,16 +11,17 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-/// HDF5 prints its error stack by default; here it goes into exceptions. The setting belongs to the calling
-/// thread.
-void silence() {
+/// HDF5 prints its error stack by default; here it goes into exceptions. (The setting belongs to the calling
+/// thread.) And a file must not lead into other files.
+void set_up() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
 
 Handle access_properties(const std::string& path) {
   Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "set file access");
   checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
-  checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18), path, "set file format");
+  checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "set file format");
   // Lock where the file system can, do without where it cannot.
   checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
   return access;
@@ -36,13 +37,6 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
       fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason));
 }
 
-Handle text_type(const std::string& where) {
-  Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, where, "describe text");
-  checked(H5Tset_size(type.id(), H5T_VARIABLE), where, "describe text");
-  checked(H5Tset_cset(type.id(), H5T_CSET_UTF8), where, "describe text");
-  return type;
-}
-
 File::File(Handle handle, const std::filesystem::path& path)
     : handle_(std::move(handle)),
       path_(path.string()),
@@ -50,7 +44,7 @@ File::File(Handle handle, const std::filesystem::path& path)
             path_ + ": /") {}
 
 File File::create(const std::filesystem::path& path, std::uint64_t expected_bytes, std::uint64_t user_block) {
-  silence();
+  set_up();
   const std::string name = path.string();
   const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
   if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
@@ -69,8 +63,12 @@ File File::open_to_write(const std::filesystem::path& path, std::uint64_t expect
 }
 
 File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
-  silence();
+  set_up();
   const std::string name = path.string();
+  // A pipe would be waited for, a device read without end.
+  if (std::error_code failure;
+      std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure))
+    throw Hdf5Error(fmt::format("{}: cannot {}: it is not a regular file", name, action));
   return File(own(H5Fopen(name.c_str(), flags, access_properties(name).id()), H5Fclose, name, action), path);
 }
 

@@ -10,7 +10,7 @@
 namespace vitrum::output {
 
 /// Value of the root attribute `format` of every result file.
-inline constexpr const char* result_format = "vitrum result 1";
+inline constexpr const char* result_format = "vitrum result 2";
 
 /// Throws FileError unless the file says that it is a result of a format that is known.
 void require_result(const Group& root);

@@ -60,6 +60,7 @@ yield = 43e6
 beta = 1.8
 [material.glass.decohesion]
 opening = 5e-6
+mode_ratio = 50
 [material.steel]
 density = 7800
 young = 195e9

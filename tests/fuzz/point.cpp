@@ -17,7 +17,8 @@ constexpr int most_increments = 24;
 
 void demand_same_when_resolved(const PointScene& point) {
   const std::string resolved = point_toml(point);
-  demand(point_toml(parse_point(resolved, "resolved.toml")) == resolved, "the resolved point reads as the same point");
+  demand(point_toml(parse_point(resolved, "resolved.toml")) == resolved,
+         "the resolved point reads as the same point");
 }
 
 /// The first segments, in few increments each.

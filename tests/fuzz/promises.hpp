@@ -7,7 +7,8 @@
 #include "mpm/computation_error.hpp"
 #include "scene/input_error.hpp"
 
-/// What every fuzz target demands of the program. A broken promise ends the process, as a sanitizer's finding does.
+/// What every fuzz target demands of the program. A broken promise ends the process, as a sanitizer's finding
+/// does.
 namespace vitrum::fuzz {
 
 /// Not an exception: no handler may mistake it for an error of the input.

@@ -3,8 +3,8 @@
 
 namespace vitrum::fuzz {
 
-/// What a scene goes through in a fuzz target: its resolved form reads as the same scene; when it is small, the
-/// system is built, what `check` derives is derived, and a few steps are taken under the watchdog.
+/// What a scene goes through in a fuzz target: its resolved form reads as the same scene; when it is small,
+/// the system is built, what `check` derives is derived, and a few steps are taken under the watchdog.
 void exercise(const Scene& scene);
 
 }  // namespace vitrum::fuzz
