@@ -71,8 +71,9 @@ class Group {
   void write_text(const std::string& name, const std::string& text) const;
   void write_texts(const std::string& name, std::span<const std::string> texts) const;
 
+  /// Of an array of doubles. Like all that reads arrays, refuses other types and arrays that claim more
+  /// elements than the file can hold.
   Extent extent(const std::string& name) const;
-  /// Refuses arrays that claim more elements than the file can hold.
   std::vector<double> read_doubles(const std::string& name) const;
   std::vector<std::int64_t> read_integers(const std::string& name) const;
   std::vector<std::uint32_t> read_indices(const std::string& name) const;

@@ -48,16 +48,22 @@ void write_array(hid_t group, const std::string& name, std::span<const Number> v
           where, "write the array");
 }
 
+/// Of an array that can be read as Numbers.
 template <class Number>
-std::vector<Number> read_array(hid_t group, const std::string& name, const std::string& where) {
-  const Handle dataset = open_array(group, name, where);
+Extent readable_extent(const Handle& dataset, const std::string& where) {
   const Handle type = own(H5Dget_type(dataset.id()), H5Tclose, where, "read the array's type");
   const auto stored = Types<Number>::stored();
   if (std::none_of(stored.begin(), stored.end(), [&](hid_t t) { return H5Tequal(type.id(), t) > 0; }))
     throw Hdf5Error(fmt::format("{}: is not an array of the expected type", where));
   const Extent extent = array_extent(dataset, where);
   require_plausible(dataset, extent, sizeof(Number), where);
-  std::vector<Number> values(extent.size());
+  return extent;
+}
+
+template <class Number>
+std::vector<Number> read_array(hid_t group, const std::string& name, const std::string& where) {
+  const Handle dataset = open_array(group, name, where);
+  std::vector<Number> values(readable_extent<Number>(dataset, where).size());
   if (values.empty()) return values;
   checked(H5Dread(dataset.id(), Types<Number>::native(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), where,
           "read the array");
@@ -77,7 +83,7 @@ void Group::write(const std::string& name, std::span<const std::uint32_t> values
 }
 
 Extent Group::extent(const std::string& name) const {
-  return array_extent(open_array(handle_.id(), name, member(name)), member(name));
+  return readable_extent<double>(open_array(handle_.id(), name, member(name)), member(name));
 }
 
 std::vector<double> Group::read_doubles(const std::string& name) const {

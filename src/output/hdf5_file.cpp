@@ -2,6 +2,8 @@
 
 #include "output/atomic_file.hpp"
 #include "output/hdf5_internal.hpp"
+#include "output/regular_file.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -33,8 +35,8 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
   H5Eclear2(H5E_DEFAULT);
-  throw Hdf5Error(
-      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason));
+  throw Hdf5Error(scene::single_line(
+      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason)));
 }
 
 File::File(Handle handle, const std::filesystem::path& path)
@@ -65,10 +67,7 @@ File File::open_to_write(const std::filesystem::path& path, std::uint64_t expect
 File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
   set_up();
   const std::string name = path.string();
-  // A pipe would be waited for, a device read without end.
-  if (std::error_code failure;
-      std::filesystem::exists(path, failure) && !std::filesystem::is_regular_file(path, failure))
-    throw Hdf5Error(fmt::format("{}: cannot {}: it is not a regular file", name, action));
+  require_regular_file(path);
   return File(own(H5Fopen(name.c_str(), flags, access_properties(name).id()), H5Fclose, name, action), path);
 }
 

@@ -13,6 +13,8 @@ namespace vitrum::output {
 namespace {
 
 constexpr const char* digest_name = "sha256";
+/// What fits into the header of an object, which has a checksum, with room for attributes.
+constexpr std::size_t fits_into_header = 60000;
 
 /// HDF5 has no type of no bytes.
 std::size_t stored_length(std::size_t length) {
@@ -54,13 +56,16 @@ void Group::write_text(const std::string& name, const std::string& text) const {
   const std::string where = member(name);
   const Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, where, "describe the text");
   const Handle type = text_type(text.size(), where);
+  const Handle layout = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, where, "describe the layout");
+  checked(H5Pset_layout(layout.id(), text.size() <= fits_into_header ? H5D_COMPACT : H5D_CONTIGUOUS), where,
+          "choose the layout");
   const Handle dataset = own(
-      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(handle_.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
       H5Dclose, where, "create the text");
   checked(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
                    packed({&text, 1}, stored_length(text.size())).data()),
           where, "write the text");
-  set_attribute(name, digest_name, sha256(text));  // HDF5 has no checksum for a single value
+  set_attribute(name, digest_name, sha256(text));  // HDF5 has none for a single value that is longer
 }
 
 std::string Group::read_text(const std::string& name) const {
