@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
@@ -30,30 +31,36 @@ class DisjointSets {
 
 constexpr double reach_in_cells = 1.5;
 
+/// A square of that side. Its coordinates are whole, but doubles: the last step of a run that blows up throws
+/// particles farther than integers count.
+struct Bin {
+  double column, row;
+  bool operator==(const Bin&) const = default;
+};
+struct BinHash {
+  std::size_t operator()(const Bin& bin) const {
+    const std::hash<double> hash;
+    return hash(bin.column) * 0x9e3779b97f4a7c15U + hash(bin.row);
+  }
+};
+
 std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_index) {
   const Particles& p = system.bodies[body_index].particles;
   const std::vector<double>& decohesion = p.variables[static_cast<std::size_t>(Variable::decohesion)];
   const double reach = reach_in_cells * system.cell;
   const auto bin_of = [&](std::size_t i) {
-    return std::pair{static_cast<std::int32_t>(std::floor(p.position[0][i] / reach)),
-                     static_cast<std::int32_t>(std::floor(p.position[1][i] / reach))};
+    return Bin{std::floor(p.position[0][i] / reach), std::floor(p.position[1][i] / reach)};
   };
-  const auto key = [](std::int32_t i, std::int32_t j) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)) << 32) | static_cast<std::uint32_t>(j);
-  };
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> bins;
+  std::unordered_map<Bin, std::vector<std::size_t>, BinHash> bins;
   for (std::size_t i = 0; i < p.size; ++i)
-    if (decohesion[i] < 1.0) {
-      const auto [a, b] = bin_of(i);
-      bins[key(a, b)].push_back(i);
-    }
+    if (decohesion[i] < 1.0) bins[bin_of(i)].push_back(i);
   DisjointSets sets(p.size);
   for (std::size_t i = 0; i < p.size; ++i) {
     if (!(decohesion[i] < 1.0)) continue;
-    const auto [a, b] = bin_of(i);
-    for (std::int32_t da = -1; da <= 1; ++da)
-      for (std::int32_t db = -1; db <= 1; ++db) {
-        const auto bin = bins.find(key(a + da, b + db));
+    const Bin home = bin_of(i);
+    for (const double di : {-1.0, 0.0, 1.0})
+      for (const double dj : {-1.0, 0.0, 1.0}) {
+        const auto bin = bins.find({home.column + di, home.row + dj});
         if (bin == bins.end()) continue;
         for (const std::size_t j : bin->second)
           if (j < i &&

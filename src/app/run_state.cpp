@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "scene/input_error.hpp"
 
 namespace vitrum::app {
@@ -34,9 +36,14 @@ const std::vector<double>& numbers_of(const output::Checkpoint& c, const std::st
   return entry->second;
 }
 
-template <class T>
-void assign(T& to, double value) {
-  to = static_cast<T>(value);
+void assign(double& to, double value, const std::string&) {
+  to = value;
+}
+/// A count; below 2^53 a double holds it exactly.
+void assign(std::int64_t& to, double value, const std::string& name) {
+  if (!(value >= 0.0 && value <= 9007199254740992.0 && value == std::floor(value)))
+    throw FileError(fmt::format("checkpoint: '{}' holds {}, which is no count", name, value));
+  to = static_cast<std::int64_t>(value);
 }
 
 struct NamedEvent {
@@ -66,7 +73,7 @@ RunState restored(const output::Checkpoint& checkpoint) {
   visit_numbers(state, [&](const char* name, auto&... values) {
     const std::vector<double>& numbers = numbers_of(checkpoint, name, sizeof...(values));
     std::size_t k = 0;
-    (assign(values, numbers[k++]), ...);
+    (assign(values, numbers[k++], name), ...);
   });
   state.failure.resize(checkpoint.bodies.size());
   for (std::size_t body = 0; body < state.failure.size(); ++body)

@@ -87,6 +87,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
   if constexpr (P::rescatter) std::fill(p0, p0 + 2 * tile_nodes, 0.0);
 
   TileSums sums;
+  const CellRange range(block);
   const double per_cell = 1.0 / grid.cell();
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const auto [begin, end] = grid.particles(tile, n);
@@ -155,9 +156,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
         const double x1 = z + duration * dx1;
         if (axisymmetric && x0 < 0.0) x0 = -x0, reflect_at_axis(p, i);
         p.position[0][i] = x0, p.position[1][i] = x1;
-        const long long c0 = cell_of(x0 * per_cell), c1 = cell_of(x1 * per_cell);
-        sums.stale |=
-            c0 < block.cells[0] || c0 > block.cells[1] || c1 < block.cells[2] || c1 > block.cells[3];
+        sums.stale |= !range.contains(x0 * per_cell, x1 * per_cell);
       }
     }
   }

@@ -50,18 +50,13 @@ void Grid::rebuild(const std::vector<Body>& bodies) {
 }
 
 bool Grid::has_left(std::size_t tile, const std::vector<Body>& bodies) const {
-  const Block& block = blocks_[static_cast<std::size_t>(tile_block_[tile])];
+  const CellRange range(blocks_[static_cast<std::size_t>(tile_block_[tile])]);
   const double per_cell = 1.0 / cell_;
-  const auto outside = [](double x, std::int64_t first, std::int64_t last) {
-    return !(x >= static_cast<double>(first) && x < static_cast<double>(last + 1));  // also: not a number
-  };
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const auto& x = bodies[n].particles.position;
     const auto [begin, end] = particles(tile, n);
     for (const std::uint32_t* k = begin; k != end; ++k)
-      if (outside(x[0][*k] * per_cell, block.cells[0], block.cells[1]) ||
-          outside(x[1][*k] * per_cell, block.cells[2], block.cells[3]))
-        return true;
+      if (!range.contains(x[0][*k] * per_cell, x[1][*k] * per_cell)) return true;
   }
   return false;
 }

@@ -44,6 +44,22 @@ struct Block {
       cells{};  ///< first and last cell column, first and last row its particles may be in
 };
 
+/// The cells that a block's particles may be in, for positions counted in cells. A comparison of doubles: it
+/// holds for positions that no integer can hold, and is false for what is not a number.
+class CellRange {
+ public:
+  explicit CellRange(const Block& block)
+      : low_{static_cast<double>(block.cells[0]), static_cast<double>(block.cells[2])},
+        high_{static_cast<double>(block.cells[1] + 1), static_cast<double>(block.cells[3] + 1)} {}
+
+  bool contains(double x0, double x1) const {
+    return x0 >= low_[0] && x0 < high_[0] && x1 >= low_[1] && x1 < high_[1];
+  }
+
+ private:
+  std::array<double, 2> low_, high_;
+};
+
 /// A component of a node's velocity that is not free.
 struct Constraint {
   static constexpr std::int16_t free = -1, axis = -2;  ///< otherwise: index of the boundary

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -8,6 +9,7 @@
 #include "output/checkpoint_columns.hpp"
 #include "output/checkpoint_header.hpp"
 #include "output/hdf5.hpp"
+#include "output/regular_file.hpp"
 #include "output/result_file.hpp"
 #include "output/sha256.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 
 /// HDF5 1.10 can crash on a damaged file; so the bytes are compared with their digest before HDF5 sees them.
 void require_intact(const std::filesystem::path& path) {
+  require_regular_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
   std::string line(checkpoint_header(sha256("")).size(), '\0');
@@ -58,16 +61,27 @@ BodyCheckpoint read_body(const Group& group) {
   return body;
 }
 
+[[noreturn]] void differ(std::string_view what, std::string_view found, std::string_view expected) {
+  throw FileError(fmt::format("the checkpoint does not belong to this scene: {}: found {}, expected {}", what,
+                              found, expected));
+}
+
+/// Rows of outputs are found by identity.
+void require_permutation(const BodyCheckpoint& body) {
+  std::vector<bool> seen(body.particles.size, false);
+  for (const std::uint32_t identity : body.particles.identity) {
+    if (identity >= seen.size() || seen[identity])
+      differ(fmt::format("identities of body '{}'", body.name), std::to_string(identity),
+             fmt::format("each from 0 to {} once", seen.size() - 1));
+    seen[identity] = true;
+  }
+}
+
 std::string variable_list(const Particles& particles) {
   std::string list;
   for (const auto& [name, column] : variable_columns(particles))
     if (!column->empty()) list += (list.empty() ? "" : ", ") + name;
   return list.empty() ? "none" : list;
-}
-
-[[noreturn]] void differ(std::string_view what, std::string_view found, std::string_view expected) {
-  throw FileError(fmt::format("the checkpoint does not belong to this scene: {}: found {}, expected {}", what,
-                              found, expected));
 }
 
 }  // namespace
@@ -78,6 +92,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   const Group& root = file.root();
   Checkpoint checkpoint;
   checkpoint.time = root.number_attribute(".", "time");
+  if (!std::isfinite(checkpoint.time))
+    throw FileError(fmt::format("{}: its time is {}", path.string(), checkpoint.time));
   checkpoint.step_index = root.integer_attribute(".", "step_index");
   checkpoint.scene_sha256 = root.text_attribute(".", "scene_sha256");
   const Group bodies = root.open_group("bodies"), numbers = root.open_group("numbers"),
@@ -103,6 +119,7 @@ void restore_bodies(const Checkpoint& checkpoint, std::span<Body> bodies) {
     if (variable_list(stored.particles) != variable_list(body.particles))
       differ(fmt::format("variables of body '{}'", body.name), variable_list(stored.particles),
              variable_list(body.particles));
+    require_permutation(stored);
     body.particles.identity = stored.particles.identity;
     const auto copy = [](const auto& from, const auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) *to[c].second = *from[c].second;

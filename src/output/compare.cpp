@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "output/json_file.hpp"
 #include "output/result_reader.hpp"
 
 namespace vitrum::output {
@@ -31,15 +31,14 @@ void flatten(const Json& node, const std::string& name,
 std::vector<std::pair<std::string, std::optional<double>>> quantities_of(
     const std::filesystem::path& directory) {
   std::vector<std::pair<std::string, std::optional<double>>> found;
-  std::ifstream file(directory / "summary.json");
-  if (!file) return found;
-  Json summary = Json::parse(file, nullptr, false);
-  if (!summary.is_object()) return found;
+  std::optional<Json> summary = read_json_object(directory / "summary.json");
+  if (!summary) return found;
   for (const char* block : {"time", "energy", "failure", "bodies"}) {
-    if (!summary.contains(block)) continue;
-    if (summary[block].is_object() && summary[block].contains("fragments"))
-      summary[block]["fragments"].erase("list");
-    flatten(summary[block], block, found);
+    if (!summary->contains(block)) continue;
+    Json& part = summary->at(block);
+    if (part.is_object() && part.contains("fragments") && part["fragments"].is_object())
+      part["fragments"].erase("list");
+    flatten(part, block, found);
   }
   return found;
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "output/atomic_file.hpp"
+#include "output/regular_file.hpp"
 #include "scene/input_error.hpp"
 
 namespace vitrum::output {
@@ -26,6 +27,7 @@ EnergyCsv EnergyCsv::create(const std::filesystem::path& path) {
 }
 
 EnergyCsv EnergyCsv::reopen(const std::filesystem::path& path, std::size_t rows) {
+  require_regular_file(path);
   std::ifstream old(path);
   std::string line, kept;
   if (!old || !std::getline(old, line) || line != header)

@@ -1,6 +1,7 @@
 #pragma once
 #include <hdf5.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -49,7 +50,8 @@ struct Extent {
 };
 
 /// A group of an open file (the file must outlive it). Names are relative to the group. Every function throws
-/// Hdf5Error. Text is stored as variable-length UTF-8.
+/// Hdf5Error. Text is UTF-8 of a fixed length. All that is written carries a checksum, so that damage is an
+/// error and not another value; only types that are written are read.
 class Group {
  public:
   /// `label`: "FILE: /object", for messages.
@@ -69,8 +71,9 @@ class Group {
   void write_text(const std::string& name, const std::string& text) const;
   void write_texts(const std::string& name, std::span<const std::string> texts) const;
 
+  /// Of an array of doubles. Like all that reads arrays, refuses other types and arrays that claim more
+  /// elements than the file can hold.
   Extent extent(const std::string& name) const;
-  /// Refuses arrays that claim more elements than the file can hold.
   std::vector<double> read_doubles(const std::string& name) const;
   std::vector<std::int64_t> read_integers(const std::string& name) const;
   std::vector<std::uint32_t> read_indices(const std::string& name) const;
@@ -98,12 +101,19 @@ class Group {
 
  private:
   std::string member(const std::string& name) const;
+  void write_attribute(const std::string& object, const std::string& name, hid_t type,
+                       const void* value) const;
+  Handle open_attribute(const std::string& object, const std::string& name) const;
+  /// A single value of one of the `stored` types.
+  void read_single(const std::string& object, const std::string& name, std::array<hid_t, 2> stored,
+                   hid_t native, void* value) const;
 
   Handle handle_;
   std::string label_;
 };
 
-/// An open HDF5 file. Files are created in the HDF5 1.8 format, whose metadata carry checksums.
+/// An open HDF5 file. Files are created in the HDF5 1.10 format, whose metadata all carry checksums (in
+/// earlier ones the index of chunks does not).
 class File {
  public:
   /// Replaces an existing file. expected_bytes: what will be written, see open_to_write. user_block: bytes

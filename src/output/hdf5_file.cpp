@@ -2,6 +2,8 @@
 
 #include "output/atomic_file.hpp"
 #include "output/hdf5_internal.hpp"
+#include "output/regular_file.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -11,16 +13,17 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-/// HDF5 prints its error stack by default; here it goes into exceptions. The setting belongs to the calling
-/// thread.
-void silence() {
+/// HDF5 prints its error stack by default; here it goes into exceptions. (The setting belongs to the calling
+/// thread.) And a file must not lead into other files.
+void set_up() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
 
 Handle access_properties(const std::string& path) {
   Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "set file access");
   checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
-  checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18), path, "set file format");
+  checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "set file format");
   // Lock where the file system can, do without where it cannot.
   checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
   return access;
@@ -32,15 +35,8 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
   H5Eclear2(H5E_DEFAULT);
-  throw Hdf5Error(
-      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason));
-}
-
-Handle text_type(const std::string& where) {
-  Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, where, "describe text");
-  checked(H5Tset_size(type.id(), H5T_VARIABLE), where, "describe text");
-  checked(H5Tset_cset(type.id(), H5T_CSET_UTF8), where, "describe text");
-  return type;
+  throw Hdf5Error(scene::single_line(
+      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason)));
 }
 
 File::File(Handle handle, const std::filesystem::path& path)
@@ -50,7 +46,7 @@ File::File(Handle handle, const std::filesystem::path& path)
             path_ + ": /") {}
 
 File File::create(const std::filesystem::path& path, std::uint64_t expected_bytes, std::uint64_t user_block) {
-  silence();
+  set_up();
   const std::string name = path.string();
   const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
   if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
@@ -69,8 +65,9 @@ File File::open_to_write(const std::filesystem::path& path, std::uint64_t expect
 }
 
 File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
-  silence();
+  set_up();
   const std::string name = path.string();
+  require_regular_file(path);
   return File(own(H5Fopen(name.c_str(), flags, access_properties(name).id()), H5Fclose, name, action), path);
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "output/hdf5_internal.hpp"
 
@@ -12,32 +13,12 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
-Handle scalar_space(const std::string& where) {
-  return own(H5Screate(H5S_SCALAR), H5Sclose, where, "describe a single value");
-}
-
-void write_attribute(hid_t group, const std::string& object, const std::string& name, hid_t type,
-                     const void* value, const std::string& where) {
-  const std::string action = fmt::format("write attribute '{}'", name);
-  const Handle space = scalar_space(where);
-  const Handle attribute = own(H5Acreate_by_name(group, object.c_str(), name.c_str(), type, space.id(),
-                                                 H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                               H5Aclose, where, action);
-  checked(H5Awrite(attribute.id(), type, value), where, action);
-}
-
-/// Opens a single-valued attribute of the given class; anything else is an error.
-Handle open_attribute(hid_t group, const std::string& object, const std::string& name, H5T_class_t kind,
-                      const std::string& where) {
-  const std::string action = fmt::format("read attribute '{}'", name);
-  Handle attribute = own(H5Aopen_by_name(group, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, where, action);
-  const Handle space = own(H5Aget_space(attribute.id()), H5Sclose, where, action);
-  const Handle type = own(H5Aget_type(attribute.id()), H5Tclose, where, action);
-  const bool variable_text = kind != H5T_STRING || H5Tis_variable_str(type.id()) > 0;
-  if (H5Sget_simple_extent_npoints(space.id()) != 1 || H5Tget_class(type.id()) != kind || !variable_text)
-    throw Hdf5Error(fmt::format("{}: attribute '{}' is not of the expected type", where, name));
-  return attribute;
+/// Attributes are read as they are stored: no conversion of what a foreign file may hold.
+bool is_single(const Handle& attribute, std::array<hid_t, 2> stored, const std::string& where) {
+  const Handle space = own(H5Aget_space(attribute.id()), H5Sclose, where, "read the attribute's shape");
+  const Handle type = own(H5Aget_type(attribute.id()), H5Tclose, where, "read the attribute's type");
+  return H5Sget_simple_extent_npoints(space.id()) == 1 &&
+         std::any_of(stored.begin(), stored.end(), [&](hid_t t) { return H5Tequal(type.id(), t) > 0; });
 }
 
 }  // namespace
@@ -71,17 +52,35 @@ std::vector<std::string> Group::names() const {
   return names;
 }
 
-void Group::set_attribute(const std::string& object, const std::string& name, const std::string& text) const {
-  const char* value = text.c_str();
-  write_attribute(handle_.id(), object, name, text_type(member(object)).id(), &value, member(object));
+void Group::write_attribute(const std::string& object, const std::string& name, hid_t type,
+                            const void* value) const {
+  const std::string where = member(object), action = fmt::format("write attribute '{}'", name);
+  const Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, where, action);
+  const Handle attribute = own(H5Acreate_by_name(handle_.id(), object.c_str(), name.c_str(), type, space.id(),
+                                                 H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                               H5Aclose, where, action);
+  checked(H5Awrite(attribute.id(), type, value), where, action);
+}
+
+Handle Group::open_attribute(const std::string& object, const std::string& name) const {
+  return own(H5Aopen_by_name(handle_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+             member(object), fmt::format("read attribute '{}'", name));
+}
+
+void Group::read_single(const std::string& object, const std::string& name, std::array<hid_t, 2> stored,
+                        hid_t native, void* value) const {
+  const Handle attribute = open_attribute(object, name);
+  if (!is_single(attribute, stored, member(object)))
+    throw Hdf5Error(fmt::format("{}: attribute '{}' is not of the expected type", member(object), name));
+  checked(H5Aread(attribute.id(), native, value), member(object), fmt::format("read attribute '{}'", name));
 }
 
 void Group::set_attribute(const std::string& object, const std::string& name, double value) const {
-  write_attribute(handle_.id(), object, name, H5T_NATIVE_DOUBLE, &value, member(object));
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Group::set_attribute(const std::string& object, const std::string& name, std::int64_t value) const {
-  write_attribute(handle_.id(), object, name, H5T_NATIVE_INT64, &value, member(object));
+  write_attribute(object, name, H5T_NATIVE_INT64, &value);
 }
 
 bool Group::has_attribute(const std::string& object, const std::string& name) const {
@@ -89,29 +88,15 @@ bool Group::has_attribute(const std::string& object, const std::string& name) co
                  "look for an attribute") > 0;
 }
 
-std::string Group::text_attribute(const std::string& object, const std::string& name) const {
-  const Handle attribute = open_attribute(handle_.id(), object, name, H5T_STRING, member(object));
-  char* text = nullptr;
-  checked(H5Aread(attribute.id(), text_type(member(object)).id(), static_cast<void*>(&text)), member(object),
-          fmt::format("read attribute '{}'", name));
-  std::string result = text == nullptr ? "" : text;
-  H5free_memory(text);
-  return result;
-}
-
 double Group::number_attribute(const std::string& object, const std::string& name) const {
   double value = 0.0;
-  const Handle attribute = open_attribute(handle_.id(), object, name, H5T_FLOAT, member(object));
-  checked(H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value), member(object),
-          fmt::format("read attribute '{}'", name));
+  read_single(object, name, {H5T_IEEE_F64LE, H5T_IEEE_F64BE}, H5T_NATIVE_DOUBLE, &value);
   return value;
 }
 
 std::int64_t Group::integer_attribute(const std::string& object, const std::string& name) const {
   std::int64_t value = 0;
-  const Handle attribute = open_attribute(handle_.id(), object, name, H5T_INTEGER, member(object));
-  checked(H5Aread(attribute.id(), H5T_NATIVE_INT64, &value), member(object),
-          fmt::format("read attribute '{}'", name));
+  read_single(object, name, {H5T_STD_I64LE, H5T_STD_I64BE}, H5T_NATIVE_INT64, &value);
   return value;
 }
 

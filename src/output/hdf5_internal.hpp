@@ -1,6 +1,7 @@
 #pragma once
 #include <hdf5.h>
 
+#include <span>
 #include <string>
 
 #include "output/hdf5.hpp"
@@ -22,7 +23,21 @@ inline Handle own(hid_t id, Handle::Closer closer, const std::string& where, con
   return Handle(checked(id, where, action), closer);
 }
 
-/// Variable-length UTF-8, the only text type that is written.
-Handle text_type(const std::string& where);
+/// Creation properties of a dataset of that size (one or two dimensions) and bytes per element, with a
+/// checksum for all that is stored.
+Handle checksummed_layout(std::span<const hsize_t> size, std::size_t element, const std::string& where);
+
+Handle open_array(hid_t group, const std::string& name, const std::string& where);
+
+/// A single value counts as an array of one element; anything but values in one or two dimensions is an
+/// error.
+Extent array_extent(const Handle& dataset, const std::string& where);
+
+/// Bytes of the file that an object belongs to.
+hsize_t file_size_of(hid_t object, const std::string& where);
+
+/// Keeps a damaged or hostile file from asking for more memory than its data can fill, and from naming other
+/// files as the place of its data.
+void require_plausible(const Handle& dataset, Extent extent, std::size_t element, const std::string& where);
 
 }  // namespace vitrum::output

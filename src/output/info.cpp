@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "output/json_file.hpp"
 #include "output/result_reader.hpp"
 
 namespace vitrum::output {
@@ -52,12 +52,11 @@ Json series_of(const ResultReader& result) {
 /// under way).
 Json summary_of(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
-  std::ifstream file(path);
-  if (!file) return nullptr;
-  const Json summary = Json::parse(file, nullptr, false);
-  if (!summary.is_object() || !summary.contains("status"))
+  const std::optional<Json> summary = read_json_object(path);
+  if (!summary) return nullptr;
+  if (!summary->contains("status"))
     throw FileError(fmt::format("{}: is not a summary of a run", path.string()));
-  return {{"status", summary["status"]}, {"message", summary.value("message", Json(nullptr))}};
+  return {{"status", summary->at("status")}, {"message", summary->value("message", Json(nullptr))}};
 }
 
 Json describe(const ResultReader& result) {

@@ -30,18 +30,21 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   read while the run goes on; a program that has it open keeps the version that it opened.
 - A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
-- Truncated and foreign files are refused with a message. What is not caught: HDF5 stores attribute texts without a checksum, so that bytes
-  of `result.h5` that a failing disk alters there can make a reader loop.
+- Truncated and foreign files are refused with a message. All that `result.h5` holds carries checksums: HDF5's own for its structure
+  (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters is an error for every
+  reader, not another value. `vitrum info`, `compare` and `--resume` check what they read.
 - `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them.
 
 ## `result.h5`
 
-HDF5 in the 1.8 file format, without compression.
+HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. Texts are UTF-8 of a fixed length, because HDF5
+keeps those of variable length in a heap without checksums, where a flipped bit makes HDF5 1.10 loop; h5py hands them out as
+bytes: `data.attrs["unit"].decode()`.
 
 | object | type | meaning |
 |---|---|---|
-| `/` | attributes `format` (`vitrum result 1`), `title` | |
-| `/scene/verbatim`, `/scene/resolved` | text | the scene file unchanged; the scene with `--set` applied and every default filled in |
+| `/` | attributes `format` (`vitrum result 2`), `title` | |
+| `/scene/verbatim`, `/scene/resolved` | text, attribute `sha256` | the scene file unchanged; the scene with `--set` applied and every default filled in |
 | `/provenance` | attributes `version`, `git`, `command`, `sundials`, `compiler`, `host`, `started`, `scene_sha256` | how the result was made; the digest is of the resolved scene |
 | `/bodies` | text, one per body | names |
 | `/particles/body` | uint32, N | index into `/bodies` |
@@ -103,7 +106,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 
 ## `checkpoint.h5`
 
-The first 512 bytes hold the line `vitrum checkpoint 1 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
+The first 512 bytes hold the line `vitrum checkpoint 2 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
 `step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/numbers` and `/texts` with
 the state of everything else. It is made for `--resume` of the same version, not for analysis.
 )";

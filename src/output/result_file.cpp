@@ -59,7 +59,7 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
   File old = File::open_to_read(result.path_);
   require_result(old.root());
   result.steps_ = read_steps(old.root());
-  result.particles_ = old.root().extent("particles/body").rows;
+  result.particles_ = count_particles(old.root());
   if (result.steps_.size() < outputs)
     throw FileError(
         fmt::format("{}: holds {} outputs, fewer than the {} that were written before the checkpoint",

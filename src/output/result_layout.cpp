@@ -100,7 +100,12 @@ std::size_t count_steps(const Group& root) {
   return root.open_group("steps").names().size();
 }
 
+std::size_t count_particles(const Group& root) {
+  return root.extent("particles/mass").rows;
+}
+
 std::vector<StoredStep> read_steps(const Group& root) {
+  const std::size_t particle_count = count_particles(root);
   const Group group = root.open_group("steps");
   std::vector<StoredStep> steps;
   const std::size_t count = count_steps(root);
@@ -112,8 +117,13 @@ std::vector<StoredStep> read_steps(const Group& root) {
     StoredStep entry{name, step.number_attribute(".", "time"), {}};
     if (step.has("particles")) {
       const Group particles = step.open_group("particles");
-      for (const std::string& field : particles.names())
-        entry.fields.push_back({field, particles.extent(field).columns});
+      for (const std::string& field : particles.names()) {
+        const Extent extent = particles.extent(field);
+        if (extent.rows != particle_count)
+          throw FileError(fmt::format("{}: '{}' has {} rows, expected one for each of {} particles",
+                                      particles.label(), field, extent.rows, particle_count));
+        entry.fields.push_back({field, extent.columns});
+      }
     }
     steps.push_back(std::move(entry));
   }

@@ -10,7 +10,7 @@
 namespace vitrum::output {
 
 /// Value of the root attribute `format` of every result file.
-inline constexpr const char* result_format = "vitrum result 1";
+inline constexpr const char* result_format = "vitrum result 2";
 
 /// Throws FileError unless the file says that it is a result of a format that is known.
 void require_result(const Group& root);
@@ -31,7 +31,11 @@ void write_series(const Group& root, std::size_t row, const OutputFrame& frame);
 /// Number of outputs of a file.
 std::size_t count_steps(const Group& root);
 
-/// The outputs of a file, in order. Throws FileError when they are not numbered without gaps.
+/// Number of particles of a file; 0: it stores no particle data.
+std::size_t count_particles(const Group& root);
+
+/// The outputs of a file, in order. Throws FileError when they are not numbered without gaps, or a field does
+/// not belong to the file's particles.
 std::vector<StoredStep> read_steps(const Group& root);
 
 /// Copies what write_header wrote.

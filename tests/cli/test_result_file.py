@@ -32,7 +32,8 @@ class ResultFile(CommandLineTest):
             np.testing.assert_array_equal(result["series/time"], [step.attrs["time"] for step in steps.values()])
             self.assertEqual(result["scene/verbatim"][()].decode(), impact.read_text())
             self.assertEqual(tomllib.loads(result["scene/resolved"][()].decode())["title"], "changed")
-            self.assertEqual(dict(result["provenance"].attrs), read_summary(out)["provenance"])
+            provenance = {name: text.decode() for name, text in result["provenance"].attrs.items()}
+            self.assertEqual(provenance, read_summary(out)["provenance"])
             self.assertEqual([name.decode() for name in result["bodies"]], ["plate", "cylinder"])
             self.assertEqual(np.bincount(result["particles/body"]).tolist(), [100, 100])
 

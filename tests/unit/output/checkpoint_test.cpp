@@ -142,6 +142,22 @@ TEST_CASE("A checkpoint whose columns disagree is refused", "[output]") {
   CHECK_THROWS_AS(read_checkpoint(empty), FileError);
 }
 
+TEST_CASE("A checkpoint whose digest is right but whose content no run writes is refused", "[output]") {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "checkpoint.h5";
+  Checkpoint checkpoint = sample_checkpoint();
+  checkpoint.time = std::numeric_limits<double>::quiet_NaN();
+  write_checkpoint(path, checkpoint);
+  CHECK_THROWS_WITH(read_checkpoint(path), contains_text("its time is nan"));
+  std::vector<Body> bodies = sample_bodies();
+  checkpoint = {};
+  checkpoint.bodies = checkpoint_bodies(bodies);
+  for (const std::uint32_t wrong : {1U, 4000000000U}) {
+    checkpoint.bodies[0].particles.identity[0] = wrong;
+    CHECK_THROWS_WITH(restore_bodies(checkpoint, bodies), contains_text("each from 0 to"));
+  }
+}
+
 TEST_CASE("Names that HDF5 would take for paths are refused", "[output]") {
   const TemporaryDirectory directory;
   Checkpoint checkpoint = sample_checkpoint();
