@@ -50,7 +50,7 @@ struct Extent {
 };
 
 /// A group of an open file (the file must outlive it). Names are relative to the group. Every function throws
-/// Hdf5Error. Text is UTF-8 of a fixed length. All that is written carries a checksum, so that damage is an
+/// Hdf5Error. Text is UTF-8. All that is written carries a checksum, so that damage is an
 /// error and not another value; only types that are written are read.
 class Group {
  public:
@@ -85,7 +85,8 @@ class Group {
   /// Writes one row of such an array, extending it when necessary.
   void write_row(const std::string& name, std::size_t row, double value) const;
 
-  /// Attributes of the member `object`; "." is the group itself.
+  /// Attributes of the member `object`; "." is the group itself. Texts are stored twice: `name` for other
+  /// readers, ".name" for text_attribute.
   void set_attribute(const std::string& object, const std::string& name, const std::string& text) const;
   void set_attribute(const std::string& object, const std::string& name, double value) const;
   void set_attribute(const std::string& object, const std::string& name, std::int64_t value) const;
@@ -107,6 +108,7 @@ class Group {
   /// A single value of one of the `stored` types.
   void read_single(const std::string& object, const std::string& name, std::array<hid_t, 2> stored,
                    hid_t native, void* value) const;
+  void copy_attributes(const std::string& object, const Group& target) const;
 
   Handle handle_;
   std::string label_;

@@ -100,9 +100,4 @@ std::int64_t Group::integer_attribute(const std::string& object, const std::stri
   return value;
 }
 
-void Group::copy(const std::string& name, const Group& target) const {
-  checked(H5Ocopy(handle_.id(), name.c_str(), target.handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-          target.member(name), fmt::format("copy from {}", member(name)));
-}
-
 }  // namespace vitrum::output

@@ -27,6 +27,9 @@ inline Handle own(hid_t id, Handle::Closer closer, const std::string& where, con
 /// checksum for all that is stored.
 Handle checksummed_layout(std::span<const hsize_t> size, std::size_t element, const std::string& where);
 
+/// Name of the attribute with this program's own copy of a text attribute.
+std::string own_copy(const std::string& attribute);
+
 Handle open_array(hid_t group, const std::string& name, const std::string& where);
 
 /// A single value counts as an array of one element; anything but values in one or two dimensions is an

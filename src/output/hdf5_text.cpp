@@ -5,9 +5,10 @@
 #include "output/hdf5_internal.hpp"
 #include "output/sha256.hpp"
 
-// Texts have a fixed length. HDF5 keeps those of variable length in a heap of its own that carries no
-// checksum: one flipped bit there makes HDF5 1.10 loop or read beyond its memory. Such texts are neither
-// written nor read.
+// HDF5 keeps texts of variable length in a heap of its own that carries no checksum: one flipped bit there
+// makes HDF5 1.10 loop or read beyond its memory. Such texts are never read here. What this program reads has
+// a fixed length; attributes are written both ways, because readers in other languages get text, not bytes,
+// only from those of variable length.
 
 namespace vitrum::output {
 namespace {
@@ -110,14 +111,24 @@ std::vector<std::string> Group::read_texts(const std::string& name) const {
   return texts;
 }
 
+std::string own_copy(const std::string& attribute) {
+  return "." + attribute;
+}
+
 void Group::set_attribute(const std::string& object, const std::string& name, const std::string& text) const {
-  write_attribute(object, name, text_type(text.size(), member(object)).id(),
+  const std::string where = member(object);
+  const Handle shown = own(H5Tcopy(H5T_C_S1), H5Tclose, where, "describe text");
+  checked(H5Tset_size(shown.id(), H5T_VARIABLE), where, "describe text");
+  checked(H5Tset_cset(shown.id(), H5T_CSET_UTF8), where, "describe text");
+  const char* const characters = text.c_str();
+  write_attribute(object, name, shown.id(), &characters);
+  write_attribute(object, own_copy(name), text_type(text.size(), where).id(),
                   packed({&text, 1}, stored_length(text.size())).data());
 }
 
 std::string Group::text_attribute(const std::string& object, const std::string& name) const {
   const std::string where = fmt::format("{}: attribute '{}'", member(object), name);
-  const Handle attribute = open_attribute(object, name);
+  const Handle attribute = open_attribute(object, own_copy(name));
   const Handle type = own(H5Aget_type(attribute.id()), H5Tclose, where, "read the text's type");
   const std::size_t length = length_of(type.id(), where);
   if (length > file_size_of(attribute.id(), where))

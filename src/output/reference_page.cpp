@@ -31,15 +31,15 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
 - A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
 - Truncated and foreign files are refused with a message. All that `result.h5` holds carries checksums: HDF5's own for its structure
-  (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters is an error for every
+  (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
   reader, not another value. `vitrum info`, `compare` and `--resume` check what they read.
 - `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them.
 
 ## `result.h5`
 
-HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. Texts are UTF-8 of a fixed length, because HDF5
-keeps those of variable length in a heap without checksums, where a flipped bit makes HDF5 1.10 loop; h5py hands them out as
-bytes: `data.attrs["unit"].decode()`.
+HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. Texts are UTF-8; those in datasets have a fixed length
+(h5py hands them out as bytes). Those in attributes are there twice: `unit`, of variable length, which h5py hands out as `str`, and `.unit`, of
+a fixed length, which this program reads: HDF5 keeps the former in a heap without checksums, where a flipped bit makes HDF5 1.10 loop.
 
 | object | type | meaning |
 |---|---|---|

@@ -47,9 +47,9 @@ class RunResults:
             raise BadInput(f"{path}: no such file; expected the folder of a run")
         try:
             with h5py.File(path) as result:
-                if result.attrs.get("format") != b"vitrum result 2":
+                if result.attrs.get("format") != "vitrum result 2":
                     raise BadInput(f"{path}: not a vitrum result of this version")
-                self.title = result.attrs["title"].decode()
+                self.title = str(result.attrs["title"])
                 self._read_scene(result)
                 self._read_particles(result, path)
         except (OSError, KeyError) as error:
