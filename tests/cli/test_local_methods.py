@@ -57,7 +57,7 @@ class LocalMethods(CommandLineTest):
 
     def test_a_failed_increment_can_be_replayed(self):
         out, summary = self.reference_run("failed", 'constitutive.method="cvode"', "constitutive.rtol=1e-13",
-                                          "constitutive.atol=1e-30", status=3)
+                                          "constitutive.atol=1e-300", status=3)
         self.assertEqual(summary["status"], "failed")
         self.assertRegex(summary["message"], r"body '\w+', particle \d+ at .* CVODE gave up")
         dump = out / "failed_point.toml"
