@@ -57,6 +57,8 @@ void EventDriven::integrate(const Material& material, PointState& state, const S
     return;
   }
   constexpr int most_events = 2000;  // (shear released at zero mean strain may chatter some hundred times)
+  constexpr std::int64_t most_steps = 500'000;  // of the solver, in all modes: about a second
+  const std::int64_t steps_before = report.solver.steps;
   const StrainPath path{strain, duration, tolerance_.relative};
   const double dissipated_before = report.dissipation.total();
   double done = 0.0;
@@ -79,6 +81,10 @@ void EventDriven::integrate(const Material& material, PointState& state, const S
       Stop stop;
       ++report.solver.solves;
       if (!solve(problem, y.data(), stop, report)) return;
+      if (report.solver.steps - steps_before > most_steps) {
+        report.cause = fmt::format("more than {} solver steps in one increment", most_steps);
+        return;
+      }
       for (std::size_t i = 0; i < problem.size(); ++i)
         if (!std::isfinite(y[i])) {
           report.cause = fmt::format("the {} is not finite", problem.name(i));

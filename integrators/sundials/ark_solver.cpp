@@ -81,9 +81,8 @@ struct ArkSolver::Callbacks {
 ArkSolver::ArkSolver(const Context& context, const ArkSettings& settings, ArkSystem& system)
     : settings_(settings), system_(system) {
   y_ = make_state_vector(system.size(), context);
-  weights_.reset(N_VClone(y_.get()));
-  errors_.reset(N_VClone(y_.get()));
-  require(weights_ && errors_, "vectors");
+  weights_.reset(allocated(N_VClone(y_.get())));
+  errors_.reset(allocated(N_VClone(y_.get())));
   N_VConst(1.0, weights_.get());
 }
 
@@ -91,7 +90,7 @@ ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const Ar
                      ArkSystem& system)
     : ArkSolver(context, settings, system) {
   first_same_as_last_ = table.ends_in_solution();
-  memory_.reset(ARKStepCreate(Callbacks::rates, nullptr, 0.0, y_.get(), context.get()));
+  memory_.reset(allocated(ARKStepCreate(Callbacks::rates, nullptr, 0.0, y_.get(), context.get())));
   create(context, table);
 }
 
@@ -99,14 +98,13 @@ ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const Ar
                      ReducibleSystem& system, LinearSolverKind linear)
     : ArkSolver(context, settings, static_cast<ArkSystem&>(system)) {
   reducible_ = &system;
-  memory_.reset(ARKStepCreate(nullptr, Callbacks::rates, 0.0, y_.get(), context.get()));
+  memory_.reset(allocated(ARKStepCreate(nullptr, Callbacks::rates, 0.0, y_.get(), context.get())));
   create(context, table);
   attach_linear_solver(context, linear);
 }
 
 void ArkSolver::create(const Context& context, const ButcherTable& table) {
   void* m = memory_.get();
-  require(m != nullptr, "memory");
   silence_arkode(m, context.get());
   const bool is_explicit = table.kind == TableKind::explicit_stages;
   const char* none = is_explicit ? "ARKODE_DIRK_NONE" : "ARKODE_ERK_NONE";
@@ -148,8 +146,7 @@ void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind li
     require(ARKStepSetLinSysFn(m, Callbacks::linear_system) == 0, "linear system");
   } else {
     constexpr int krylov_vectors = 60;
-    krylov_.reset(SUNLinSol_SPGMR(y_.get(), SUN_PREC_RIGHT, krylov_vectors, context.get()));
-    require(krylov_ != nullptr, "GMRES");
+    krylov_.reset(allocated(SUNLinSol_SPGMR(y_.get(), SUN_PREC_RIGHT, krylov_vectors, context.get())));
     require(ARKStepSetLinearSolver(m, krylov_.get(), nullptr) == 0, "linear solver");
     require(ARKStepSetPreconditioner(m, Callbacks::precondition_setup, Callbacks::precondition) == 0,
             "preconditioner");
@@ -238,6 +235,7 @@ auto ArkSolver::step(double stop) -> Step {
       next_step_ = std::max<double>(next, natural_step_);
       return result;
     }
+    if (flag == ARK_MEM_FAIL || (reduced_ && reduced_->out_of_memory())) throw std::bad_alloc();
     result.time = time_;
     ARKStepGetCurrentStep(m, &length);
     result.length = length;

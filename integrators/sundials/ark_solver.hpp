@@ -39,7 +39,8 @@ enum class LinearSolverKind { klu, gmres_with_factor, gmres_with_diagonal };
 /// stage where that is the solution.)
 class ArkSolver {
  public:
-  /// Explicit. context and system must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.
+  /// Explicit. context and system must outlive the solver. Throws std::runtime_error when SUNDIALS refuses,
+  /// std::bad_alloc.
   ArkSolver(const Context& context, const ButcherTable& table, const ArkSettings& settings,
             ArkSystem& system);
   /// Diagonally implicit, with Newton's method.

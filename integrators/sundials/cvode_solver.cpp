@@ -32,25 +32,20 @@ void require(bool good, const char* what) {
 
 CvodeSolver::CvodeSolver(const Context& context, std::size_t size, CvodeMethod method) {
   const auto n = static_cast<sunindextype>(size);
-  vector_.reset(N_VNew_Serial(n, context.get()));
-  require(vector_ != nullptr, "vector");
+  vector_.reset(allocated(N_VNew_Serial(n, context.get())));
   N_VConst(0.0, vector_.get());
-  tolerances_.reset(N_VClone(vector_.get()));
-  require(tolerances_ != nullptr, "tolerances");
-  memory_.reset(CVodeCreate(method == CvodeMethod::bdf ? CV_BDF : CV_ADAMS, context.get()));
-  require(memory_ != nullptr, "memory");
+  tolerances_.reset(allocated(N_VClone(vector_.get())));
+  memory_.reset(allocated(CVodeCreate(method == CvodeMethod::bdf ? CV_BDF : CV_ADAMS, context.get())));
   void* m = memory_.get();
   silence_cvode(m, context.get());
   require(CVodeInit(m, right_hand_side, 0.0, vector_.get()) == CV_SUCCESS, "initialisation");
   require(CVodeSStolerances(m, 1e-6, 1e-9) == CV_SUCCESS, "tolerances");
   if (method == CvodeMethod::bdf) {
-    matrix_.reset(SUNDenseMatrix(n, n, context.get()));
-    linear_.reset(SUNLinSol_Dense(vector_.get(), matrix_.get(), context.get()));
-    require(matrix_ && linear_, "dense solver");
+    matrix_.reset(allocated(SUNDenseMatrix(n, n, context.get())));
+    linear_.reset(allocated(SUNLinSol_Dense(vector_.get(), matrix_.get(), context.get())));
     require(CVodeSetLinearSolver(m, linear_.get(), matrix_.get()) == 0, "linear solver");
   } else {
-    fixed_point_.reset(SUNNonlinSol_FixedPoint(vector_.get(), 0, context.get()));
-    require(fixed_point_ != nullptr, "fixed-point iteration");
+    fixed_point_.reset(allocated(SUNNonlinSol_FixedPoint(vector_.get(), 0, context.get())));
     require(CVodeSetNonlinearSolver(m, fixed_point_.get()) == 0, "nonlinear solver");
   }
   require(CVodeRootInit(m, roots, root_functions) == CV_SUCCESS, "roots");
@@ -79,6 +74,7 @@ auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings
   CVodeSetStopTime(m, end);  // anew after every ReInit: a stale one survives a root
   sunrealtype reached = 0.0;
   result.flag = CVode(m, end, v, &reached, CV_NORMAL);
+  if (result.flag == CV_MEM_FAIL) throw std::bad_alloc();
   result.time = reached;
   CVodeGetNumSteps(m, &result.steps);
   long of_linear = 0;

@@ -36,7 +36,7 @@ class CvodeSolver {
  public:
   static constexpr int roots = 13;
 
-  /// context must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.
+  /// context must outlive the solver. Throws std::runtime_error when SUNDIALS refuses, std::bad_alloc.
   CvodeSolver(const Context& context, std::size_t size, CvodeMethod method);
 
   struct Settings {

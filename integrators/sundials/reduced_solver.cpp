@@ -2,14 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace vitrum::sundials {
 namespace {
-
-void require(bool good, const char* what) {
-  if (!good) throw std::runtime_error(std::string("the linear solver could not be set up: ") + what);
-}
 
 ReducedSolver& self(SUNLinearSolver solver) {
   return *static_cast<ReducedSolver*>(solver->content);
@@ -22,23 +17,20 @@ ReducedSolver::ReducedSolver(const Context& context, ReducibleSystem& system, Ki
   const SparsePattern& pattern = system.pattern();
   const auto n = static_cast<sunindextype>(pattern.size()),
              entries = static_cast<sunindextype>(pattern.row.size());
-  matrix_.reset(SUNSparseMatrix(n, n, entries, CSC_MAT, context.get()));
-  require(matrix_ != nullptr, "matrix");
+  matrix_.reset(allocated(SUNSparseMatrix(n, n, entries, CSC_MAT, context.get())));
   std::copy(pattern.column.begin(), pattern.column.end(), SM_INDEXPTRS_S(matrix_.get()));
   std::copy(pattern.row.begin(), pattern.row.end(), SM_INDEXVALS_S(matrix_.get()));
-  right_.reset(N_VNew_Serial(n, context.get()));
-  solution_.reset(N_VNew_Serial(n, context.get()));
-  require(right_ && solution_, "vectors");
+  right_.reset(allocated(N_VNew_Serial(n, context.get())));
+  solution_.reset(allocated(N_VNew_Serial(n, context.get())));
+  last_solution_.reserve(system.size());  // no allocation where SUNDIALS calls
   if (kind_ == Kind::factor) {
-    klu_.reset(SUNLinSol_KLU(right_.get(), matrix_.get(), context.get()));
-    require(klu_ != nullptr, "KLU");
+    klu_.reset(allocated(SUNLinSol_KLU(right_.get(), matrix_.get(), context.get())));
     constexpr int minimum_degree = 0;  // AMD: the pattern is symmetric
     SUNLinSol_KLUSetOrdering(klu_.get(), minimum_degree);
   } else {
     diagonal_.resize(pattern.size());
   }
-  interface_.reset(SUNLinSolNewEmpty(context.get()));
-  require(interface_ != nullptr, "interface");
+  interface_.reset(allocated(SUNLinSolNewEmpty(context.get())));
   interface_->content = this;
   interface_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
   interface_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
@@ -50,6 +42,10 @@ ReducedSolver::ReducedSolver(const Context& context, ReducibleSystem& system, Ki
 
 ReducedSolver::~ReducedSolver() {
   interface_->content = nullptr;  // SUNLinSolFreeEmpty frees the shell only
+}
+
+bool ReducedSolver::out_of_memory() const {
+  return klu_ && SUNLinSol_KLUGetCommon(klu_.get())->status == KLU_OUT_OF_MEMORY;
 }
 
 int ReducedSolver::form(double t, const double* y, double gamma, bool keep) {

@@ -17,7 +17,7 @@ namespace vitrum::sundials {
 class ReducedSolver {
  public:
   enum class Kind { factor, diagonal };
-  /// system and context must outlive the solver. Throws std::runtime_error when SUNDIALS refuses.
+  /// system and context must outlive the solver. Throws std::bad_alloc.
   ReducedSolver(const Context& context, ReducibleSystem& system, Kind kind);
   ~ReducedSolver();
   ReducedSolver(const ReducedSolver&) = delete;
@@ -33,6 +33,8 @@ class ReducedSolver {
   /// The solver as SUNDIALS sees it, with the matrix it belongs to.
   SUNLinearSolver interface() const { return interface_.get(); }
   SUNMatrix matrix() const { return matrix_.get(); }
+  /// Whether the last factorisation failed for want of memory.
+  bool out_of_memory() const;
   std::int64_t factorisations() const { return factorisations_; }
   const std::vector<double>& last_solution() const { return last_solution_; }
 

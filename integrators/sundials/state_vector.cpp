@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace vitrum::sundials {
 namespace {
@@ -79,8 +78,7 @@ sunrealtype weighted_norm(N_Vector values, N_Vector weights) {
 }  // namespace
 
 StateVector make_state_vector(std::size_t size, const Context& context) {
-  StateVector vector(N_VNew_Serial(static_cast<sunindextype>(size), context.get()));
-  if (!vector) throw std::runtime_error("SUNDIALS could not make a vector");
+  StateVector vector(allocated(N_VNew_Serial(static_cast<sunindextype>(size), context.get())));
   vector->ops->nvlinearcombination = linear_combination;
   vector->ops->nvwrmsnorm = weighted_norm;
   N_VConst(0.0, vector.get());

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <new>
 
 #include "app/check_command.hpp"
 #include "app/point_command.hpp"
@@ -21,6 +24,22 @@
 
 namespace vitrum::app {
 namespace {
+
+constexpr const char* out_of_memory =
+    "error: out of memory; of a run, reduce the number of particles (space.cell, particles_per_cell)\n";
+
+/// Where memory runs out in a function that must not throw (destructors of JSON values allocate), no handler
+/// is reached.
+[[noreturn]] void end_without_handler() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    std::fputs(out_of_memory, stderr);
+    std::_Exit(exit_computation);
+  } catch (...) {
+  }
+  std::abort();
+}
 
 /// One fact a line on standard error.
 int complain(const std::exception& error, int status) {
@@ -40,8 +59,7 @@ int guarded(Command&& command) {
   } catch (const FileError& error) {
     return complain(error, exit_file);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "error: out of memory; reduce the number of particles (space.cell, particles_per_cell)\n");
+    std::fputs(out_of_memory, stderr);  // fmt might want memory
     return exit_computation;
   } catch (const std::exception& error) {
     return complain(error, exit_computation);
@@ -65,9 +83,7 @@ std::string whole_command(int argc, char** argv) {
   return text;
 }
 
-}  // namespace
-
-int command_line(int argc, char** argv) {
+int obey(int argc, char** argv) {
   CLI::App program{"vitrum: fragmentation of glass under impact by the material point method"};
   program.require_subcommand(0, 1);
   bool version = false;
@@ -134,20 +150,16 @@ int command_line(int argc, char** argv) {
     fmt::print("{}", output::version_text());
     return exit_done;
   }
-  if (run_command) return guarded([&] { return run_scene(run); });
-  if (check_command) return guarded([&] { return check_scene(check); });
-  if (point_command) return guarded([&] { return drive_point(point); });
+  if (run_command) return run_scene(run);
+  if (check_command) return check_scene(check);
+  if (point_command) return drive_point(point);
   if (info_command) {
-    return guarded([&] {
-      fmt::print("{}", output::describe_result(result, json));
-      return exit_done;
-    });
+    fmt::print("{}", output::describe_result(result, json));
+    return exit_done;
   }
   if (compare_command) {
-    return guarded([&] {
-      fmt::print("{}", output::comparison_text(output::compare_results(compared[0], compared[1]), json));
-      return exit_done;
-    });
+    fmt::print("{}", output::comparison_text(output::compare_results(compared[0], compared[1]), json));
+    return exit_done;
   }
   if (reference_command) {
     fmt::print("{}", result_page ? output::result_reference() : scene_reference());
@@ -155,6 +167,13 @@ int command_line(int argc, char** argv) {
   }
   fmt::print("{}", program.help());
   return exit_input;
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  std::set_terminate(end_without_handler);
+  return guarded([&] { return obey(argc, argv); });
 }
 
 }  // namespace vitrum::app

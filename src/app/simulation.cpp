@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numbers>
 
 #include "app/command_line.hpp"
@@ -130,6 +131,9 @@ bool Simulation::advance_to(double target) {
                           file.string());
   } catch (const ComputationError& error) {
     failed_ = Watchdog::describe(system_, error.what());
+  } catch (const std::bad_alloc&) {
+    failed_ = Watchdog::describe(
+        system_, "out of memory; reduce the number of particles (space.cell, particles_per_cell)");
   }
   if (scene_.integrator.method == GridMethod::arkode_implicit && (failed_ || !reached))
     ledger_.refresh_kinetic(system_);

@@ -1,12 +1,32 @@
 #include "mpm/thread_team.hpp"
 
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+#include "mpm/computation_error.hpp"
+
 namespace vitrum::mpm {
 
 ThreadTeam::ThreadTeam(int threads) {
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  try {
+    for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
+  } catch (const std::system_error& error) {
+    dismiss();
+    throw ComputationError(fmt::format("{} threads cannot be started: {}; ask for fewer (--threads)", threads,
+                                       error.code().message()));
+  } catch (...) {
+    dismiss();
+    throw;
+  }
 }
 
 ThreadTeam::~ThreadTeam() {
+  dismiss();
+}
+
+void ThreadTeam::dismiss() {
   stop_ = true;
   ++generation_;
   generation_.notify_all();
@@ -14,7 +34,13 @@ ThreadTeam::~ThreadTeam() {
 }
 
 void ThreadTeam::take_chunks() {
-  for (std::size_t i = next_.fetch_add(1); i < chunks_; i = next_.fetch_add(1)) call_(context_, i);
+  try {
+    for (std::size_t i = next_.fetch_add(1); i < chunks_; i = next_.fetch_add(1)) call_(context_, i);
+  } catch (...) {
+    next_ = chunks_;
+    const std::lock_guard lock(of_thrown_);
+    thrown_ = std::current_exception();
+  }
 }
 
 void ThreadTeam::work() {
@@ -38,6 +64,7 @@ void ThreadTeam::run(std::size_t chunks, Call call, void* context) {
   generation_.notify_all();
   take_chunks();
   for (std::size_t left = busy_.load(); left != 0; left = busy_.load()) busy_.wait(left);
+  if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 
 }  // namespace vitrum::mpm

@@ -1,6 +1,8 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -10,6 +12,7 @@ namespace vitrum::mpm {
 /// results independent of who computes which chunk. With one thread no synchronisation happens at all.
 class ThreadTeam {
  public:
+  /// Throws ComputationError when the system does not give that many threads.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -17,7 +20,8 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls body(chunk) for chunk in [0, chunks); returns when all are done. `body` must not throw.
+  /// Calls body(chunk) for chunk in [0, chunks); returns when all are done. An exception ends the
+  /// loop early and reaches the caller (of several, one does).
   template <class Body>
   void for_each_chunk(std::size_t chunks, Body&& body) {
     if (workers_.empty() || chunks < 2) {
@@ -35,6 +39,7 @@ class ThreadTeam {
   void run(std::size_t chunks, Call call, void* context);
   void work();
   void take_chunks();
+  void dismiss();
 
   std::vector<std::thread> workers_;
   std::atomic<std::size_t> next_{0};
@@ -44,6 +49,8 @@ class ThreadTeam {
   std::size_t chunks_ = 0;
   Call call_ = nullptr;
   void* context_ = nullptr;
+  std::mutex of_thrown_;
+  std::exception_ptr thrown_;
 };
 
 }  // namespace vitrum::mpm

@@ -49,6 +49,11 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
         fmt::format("body '{}': its shape takes up to {:.3g} particles with cells of {} m and {} particles "
                     "per cell; expected at most {:g}",
                     definition.name, count, scene.cell, definition.particles_per_cell, most));
+  constexpr double farthest = 2.0e9;  // cells: the grid counts them in 32 bits
+  if (const double found = reach(definition.shape); !(found < farthest * scene.cell))
+    throw InputError(fmt::format(
+        "body '{}': its shape reaches {} m from an axis of coordinates; expected at most {:g} cells of {} m",
+        definition.name, found, farthest, scene.cell));
   std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side);
   // A disk about a point of the axis stands for a sphere: what lies at r <= 0 is its mirror image.
   if (axisymmetric) std::erase_if(seeds, [](const Seed& s) { return !(s.position[0] > 0.0); });
@@ -68,11 +73,6 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
   const double density = body.material->parameters().elastic.density;
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
-    constexpr double farthest = 2.0e9;  // cells: the grid counts them in 32 bits
-    if (!(std::max(std::abs(x[0]), std::abs(x[1])) < farthest * scene.cell))
-      throw InputError(fmt::format(
-          "body '{}': found a particle at ({}, {}) m; expected at most {:g} cells from the origin",
-          definition.name, x[0], x[1], farthest));
     const auto& G = definition.velocity_gradient;
     for (std::size_t k = 0; k < 2; ++k) {
       p.position[k][i] = x[k];

@@ -49,6 +49,11 @@ double most_seeds(const Shape& shape, double cell, int per_side) {
   return ((box.max[0] - box.min[0]) / spacing + 2.0) * ((box.max[1] - box.min[1]) / spacing + 2.0);
 }
 
+double reach(const Shape& shape) {
+  const Box box = std::visit([](const auto& s) { return bounds(s); }, shape);
+  return std::max({std::abs(box.min[0]), std::abs(box.min[1]), std::abs(box.max[0]), std::abs(box.max[1])});
+}
+
 std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side) {
   return std::visit([&](const auto& s) { return seed(s, cell / per_side); }, shape);
 }
