@@ -20,7 +20,7 @@ ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> 
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
   system.record.external_work = 0.0;
-  mpm::refresh_grid(system);
+  mpm::refresh_grid(system, mpm::Storage::sorted);
   switch (scheme_) {
     case StepScheme::usf:
       mpm::scatter(system, Scatter::momentum);

@@ -9,8 +9,10 @@
 /// combined in geometric order.
 namespace vitrum::mpm {
 
+/// Whether particles may change their places in memory: not while an integrator holds arrays of its own.
+enum class Storage { kept, sorted };
 /// Sorts the particles into blocks anew when some particle has left the cells its block was made for.
-void refresh_grid(System& system);
+void refresh_grid(System& system, Storage storage = Storage::kept);
 /// The same for positions that no operator has moved (those of a trial).
 void refresh_grid_for_positions(System& system);
 
