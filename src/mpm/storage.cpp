@@ -1,3 +1,5 @@
+#include "mpm/storage.hpp"
+
 #include <numeric>
 
 #include "mpm/grid.hpp"
@@ -15,7 +17,8 @@ void reorder(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
   for (std::size_t i = 0; i < order.size(); ++i) column[i] = old[order[i]];
 }
 
-/// All that a particle keeps from step to step.
+}  // namespace
+
 void reorder(Particles& p, const std::vector<std::uint32_t>& order) {
   const auto all = [&](auto& columns) {
     for (auto& column : columns) reorder(column, order);
@@ -23,8 +26,6 @@ void reorder(Particles& p, const std::vector<std::uint32_t>& order) {
   all(p.position), all(p.velocity), all(p.elastic_strain), all(p.stress), all(p.variables);
   reorder(p.mass, order), reorder(p.identity, order);
 }
-
-}  // namespace
 
 void Grid::sort_storage(std::vector<Body>& bodies) {
   for (std::size_t body = 0; body < body_count_; ++body) {
