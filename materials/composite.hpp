@@ -92,6 +92,8 @@ class Composite final : public Material {
   bool stays_elastic(const PointState& s, const SymmetricTensor& end, double duration) const;
   void load(const ParticleColumns& p, std::size_t i, PointState& s) const;
   void store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const;
+  template <bool small>
+  double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_inelastic(const ParticleColumns& p, std::size_t i, PointState& s, double duration,
                         PointIntegrator* integrator, PointReport& point, BatchReport& report) const;

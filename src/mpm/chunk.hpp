@@ -53,6 +53,8 @@ class ColumnReader {
   ColumnReader& operator=(const ColumnReader&) = delete;
 
   double operator[](std::size_t k) const { return data_[k]; }
+  /// By place in the chunk. Loops that are to be vectorised take this pointer outside.
+  const double* data() const { return data_; }
 
  private:
   const double* data_;
@@ -73,6 +75,7 @@ class ColumnWriter {
   ColumnWriter& operator=(const ColumnWriter&) = delete;
 
   double& operator[](std::size_t k) { return data_[k]; }
+  double* data() { return data_; }
 
  private:
   const Chunk& chunk_;

@@ -1,5 +1,7 @@
 #include "mpm/axis.hpp"
+#include "mpm/nodes.hpp"
 #include "mpm/stencil.hpp"
+#include "mpm/stress_update.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -92,60 +94,72 @@ class Interpolated {
     }
   }
 
-  double value(std::size_t place, std::size_t k) const { return at(value_, place, k); }
-  /// h du_r/dr and so on of the plan's gradient.
-  double rr(std::size_t k) const { return at(r_, P::gradient_of, k); }
-  double rz(std::size_t k) const { return at(z_, P::gradient_of, k); }
-  double zr(std::size_t k) const { return at(r_, P::gradient_of + 1, k); }
-  double zz(std::size_t k) const { return at(z_, P::gradient_of + 1, k); }
-  double radial(std::size_t k) const { return at(value_, P::gradient_of, k); }
+  /// Component `place` of the k-th pack is at [width k + place].
+  const double* values() const { return reinterpret_cast<const double*>(value_); }
+  /// The same for the plan's gradient: h d/dr and h d/dz of a vector's components 0 and 1; and the vector
+  /// itself.
+  const double* along_r() const { return reinterpret_cast<const double*>(r_) + P::gradient_of; }
+  const double* along_z() const { return reinterpret_cast<const double*>(z_) + P::gradient_of; }
+  const double* differentiated() const { return values() + P::gradient_of; }
 
  private:
-  static double at(const Pack<P::width>* packs, std::size_t place, std::size_t k) {
-    return reinterpret_cast<const double*>(packs)[P::width * k + place];
-  }
   Pack<P::width> value_[Chunk::capacity];
   Pack<P::width> r_[P::gradient ? Chunk::capacity : 1], z_[P::gradient ? Chunk::capacity : 1];
 };
+
+/// Strain increments of a chunk: the integral of R^T D R over the increment, R turning from 0 to `spin`.
+template <bool axisymmetric, bool small, class P>
+void store_turned(std::size_t size, const Interpolated<P>& at, const double* spin, const double* radius,
+                  double cell, double duration, const std::array<double*, 4>& to) {
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated();
+  double *e0 = to[0], *e1 = to[1], *e2 = to[2], *e3 = to[3];
+  const double scale = duration / cell;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t n = P::width * k;
+    const double hoop = axisymmetric ? duration * v[n] / hoop_radius(radius[k], cell) : 0.0;
+    const Rotation turn = small ? rotation_by_small(-0.5 * spin[k]) : rotation_by(-0.5 * spin[k]);
+    const SymmetricTensor e =
+        rotate({scale * r[n], scale * z[n + 1], hoop, 0.5 * scale * (z[n] + r[n + 1])}, turn);
+    e0[k] = e.rr, e1[k] = e.zz, e2[k] = e.tt, e3[k] = e.rz;
+  }
+}
 
 /// Strain and spin increments of a chunk over `duration`.
 template <bool axisymmetric, class P>
 void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& radius,
                   double cell, double duration) {
   ColumnWriter e0(chunk, p.strain_increment[0]), e1(chunk, p.strain_increment[1]),
-      e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spin(chunk, p.spin_increment);
-  const double scale = duration / cell;
-  double largest = 0.0;
+      e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spins(chunk, p.spin_increment);
+  const double *r = at.along_r(), *z = at.along_z();
+  double *spin = spins.data(), largest = 0.0;
+  const double half_scale = 0.5 * duration / cell;
+  const std::size_t size = chunk.size();
 #pragma omp simd reduction(max : largest)
-  for (std::size_t k = 0; k < chunk.size(); ++k) {
-    spin[k] = 0.5 * scale * (at.zr(k) - at.rz(k));
+  for (std::size_t k = 0; k < size; ++k) {
+    spin[k] = half_scale * (r[P::width * k + 1] - z[P::width * k]);
     largest = std::max(largest, std::abs(spin[k]));
   }
-  const auto store = [&](std::size_t k, const Rotation& turn) {
-    const double hoop = axisymmetric ? duration * at.radial(k) / hoop_radius(radius[k], cell) : 0.0;
-    const SymmetricTensor e =
-        rotate({scale * at.rr(k), scale * at.zz(k), hoop, 0.5 * scale * (at.rz(k) + at.zr(k))}, turn);
-    e0[k] = e.rr, e1[k] = e.zz, e2[k] = e.tt, e3[k] = e.rz;
-  };
-  // The integral of R^T D R over the increment, R turning from 0 to `spin`.
-  if (0.5 * largest <= small_angle) {
-#pragma omp simd
-    for (std::size_t k = 0; k < chunk.size(); ++k) store(k, rotation_by_small(-0.5 * spin[k]));
-  } else {
-    for (std::size_t k = 0; k < chunk.size(); ++k) store(k, rotation_by(-0.5 * spin[k]));
-  }
+  const std::array<double*, 4> to{e0.data(), e1.data(), e2.data(), e3.data()};
+  if (0.5 * largest <= small_angle)
+    store_turned<axisymmetric, true>(size, at, spin, radius.data(), cell, duration, to);
+  else
+    store_turned<axisymmetric, false>(size, at, spin, radius.data(), cell, duration, to);
 }
 
 /// Adds the interpolated change to the velocities; returns the kinetic energy of the chunk then.
 template <class P>
 double store_velocity(const Chunk& chunk, Particles& p, const Interpolated<P>& at) {
-  const ColumnReader old0(chunk, p.velocity[0]), old1(chunk, p.velocity[1]), mass(chunk, p.mass);
-  ColumnWriter v0(chunk, p.velocity[0]), v1(chunk, p.velocity[1]);
-  double kinetic = 0.0;
+  const ColumnReader old0(chunk, p.velocity[0]), old1(chunk, p.velocity[1]), masses(chunk, p.mass);
+  ColumnWriter new0(chunk, p.velocity[0]), new1(chunk, p.velocity[1]);
+  const double *from0 = old0.data(), *from1 = old1.data(), *mass = masses.data(), *change = at.values();
+  double *to0 = new0.data(), *to1 = new1.data(), kinetic = 0.0;
+  const std::size_t size = chunk.size();
 #pragma omp simd reduction(+ : kinetic)
-  for (std::size_t k = 0; k < chunk.size(); ++k) {
-    v0[k] = old0[k] + at.value(0, k), v1[k] = old1[k] + at.value(1, k);
-    kinetic += 0.5 * mass[k] * (v0[k] * v0[k] + v1[k] * v1[k]);
+  for (std::size_t k = 0; k < size; ++k) {
+    const double v0 = from0[k] + change[P::width * k], v1 = from1[k] + change[P::width * k + 1];
+    to0[k] = v0, to1[k] = v1;
+    kinetic += 0.5 * mass[k] * (v0 * v0 + v1 * v1);
   }
   return kinetic;
 }
@@ -165,39 +179,66 @@ void add_momenta(const Chunk& chunk, const Particles& p, const Stencils& at, Pac
 /// Moves the particles of a chunk. Whether some particle leaves the cells that its block was made for.
 template <bool axisymmetric, class P>
 bool store_position(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& r,
-                    const ColumnReader& z, const CellRange& cells, double duration) {
-  ColumnWriter x0(chunk, p.position[0]), x1(chunk, p.position[1]);
-  constexpr std::size_t motion = P::width - 2;
+                    const ColumnReader& z, const CellRange& block_cells, double duration) {
+  ColumnWriter new0(chunk, p.position[0]), new1(chunk, p.position[1]);
+  const double *from0 = r.data(), *from1 = z.data(), *v = at.values() + P::width - 2;
+  double *to0 = new0.data(), *to1 = new1.data();
   double moved[Chunk::capacity];  // where the axis is no obstacle
+  const CellRange cells = block_cells;
+  const std::size_t size = chunk.size();
   int beyond = 0, left = 0;
 #pragma omp simd reduction(| : beyond, left)
-  for (std::size_t k = 0; k < chunk.size(); ++k) {
-    moved[k] = r[k] + duration * at.value(motion, k);
-    x0[k] = axisymmetric ? std::abs(moved[k]) : moved[k];
-    x1[k] = z[k] + duration * at.value(motion + 1, k);
-    beyond |= moved[k] < 0.0 ? 1 : 0;
-    left |= cells.contain(x0[k], x1[k]) ? 0 : 1;
+  for (std::size_t k = 0; k < size; ++k) {
+    const double x0 = from0[k] + duration * v[P::width * k], x1 = from1[k] + duration * v[P::width * k + 1];
+    moved[k] = x0;
+    to0[k] = axisymmetric ? std::abs(x0) : x0, to1[k] = x1;
+    beyond |= x0 < 0.0 ? 1 : 0;
+    left |= cells.contain(axisymmetric ? std::abs(x0) : x0, x1) ? 0 : 1;
   }
   if (axisymmetric && beyond != 0)
-    for (std::size_t k = 0; k < chunk.size(); ++k)
+    for (std::size_t k = 0; k < size; ++k)
       if (moved[k] < 0.0) reflect_at_axis(p, chunk.place(k));
   return left != 0;
 }
 
-void store(const ParticleGradient& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
-  to.gradient[0][i] = rr, to.gradient[1][i] = rz, to.gradient[2][i] = zr, to.gradient[3][i] = zz;
-  to.gradient[4][i] = tt;
+/// Gradients of a chunk (1/s), in the axes of space or, for rates, in those that have turned with the
+/// particle.
+template <bool axisymmetric, class P>
+void store_gradient(const Chunk& chunk, const ParticleGradient& to, const Interpolated<P>& at,
+                    const ColumnReader& radius, double cell) {
+  ColumnWriter rr(chunk, to.gradient[0]), rz(chunk, to.gradient[1]), zr(chunk, to.gradient[2]),
+      zz(chunk, to.gradient[3]), tt(chunk, to.gradient[4]);
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const std::size_t n = P::width * k;
+    rr[k] = per_cell * r[n], rz[k] = per_cell * z[n], zr[k] = per_cell * r[n + 1],
+    zz[k] = per_cell * z[n + 1];
+    tt[k] = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
+  }
 }
-void store(const ParticleRates& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
-  const SymmetricTensor e = rotate({rr, zz, tt, 0.5 * (rz + zr)}, rotation_by(-to.turn[i]));
-  to.strain[0][i] = e.rr, to.strain[1][i] = e.zz, to.strain[2][i] = e.tt, to.strain[3][i] = e.rz;
-  to.spin[i] = 0.5 * (zr - rz);
+template <bool axisymmetric, class P>
+void store_gradient(const Chunk& chunk, const ParticleRates& to, const Interpolated<P>& at,
+                    const ColumnReader& radius, double cell) {
+  ColumnWriter rr(chunk, to.strain[0]), zz(chunk, to.strain[1]), tt(chunk, to.strain[2]),
+      rz(chunk, to.strain[3]), spin(chunk, to.spin);
+  const ColumnReader turn(chunk, to.turn);
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const std::size_t n = P::width * k;
+    const double hoop = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
+    const SymmetricTensor e =
+        rotate({per_cell * r[n], per_cell * z[n + 1], hoop, 0.5 * per_cell * (z[n] + r[n + 1])},
+               rotation_by(-turn[k]));
+    rr[k] = e.rr, zz[k] = e.zz, tt[k] = e.tt, rz[k] = e.rz;
+    spin[k] = 0.5 * per_cell * (r[n + 1] - z[n]);
+  }
 }
 
-/// P: a plan. targets: by body, for the plans that have a target; otherwise null.
+/// P: a plan. targets: by body, for the plans that have a target; otherwise null. stress: null where it is
+/// not updated.
 template <ShapeKind kind, bool axisymmetric, class P, class Target>
 TileSums gather_tile(System& system, std::size_t tile, double duration,
-                     [[maybe_unused]] const Target* targets) {
+                     [[maybe_unused]] const Target* targets, [[maybe_unused]] StressUpdate* stress) {
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const bool at_axis = axisymmetric && kind != ShapeKind::linear && block.column == 0;
@@ -216,16 +257,17 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
       const ColumnReader r(chunk, p.position[0]), z(chunk, p.position[1]);
       const Stencils<kind> stencils(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
       at.gather(stencils, chunk.size(), nodes);
-      if constexpr (P::gradient && !P::strain)
-        for (std::size_t k = 0; k < chunk.size(); ++k)
-          store(targets[n], chunk.place(k), per_cell * at.rr(k), per_cell * at.rz(k), per_cell * at.zr(k),
-                per_cell * at.zz(k), axisymmetric ? at.radial(k) / hoop_radius(r[k], cell) : 0.0);
+      if constexpr (P::gradient && !P::strain) store_gradient<axisymmetric>(chunk, targets[n], at, r, cell);
       if constexpr (P::rates)
         for (std::size_t c = 0; c < 2; ++c) {
           ColumnWriter x(chunk, targets[n].position[c]), v(chunk, targets[n].velocity[c]);
-          for (std::size_t k = 0; k < chunk.size(); ++k) x[k] = at.value(c, k), v[k] = at.value(2 + c, k);
+          for (std::size_t k = 0; k < chunk.size(); ++k)
+            x[k] = at.values()[P::width * k + c], v[k] = at.values()[P::width * k + 2 + c];
         }
-      if constexpr (P::strain) store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
+      if constexpr (P::strain) {
+        store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
+        if (stress != nullptr) stress->take(tile, n, chunk);
+      }
       if constexpr (P::velocity) sums.kinetic += store_velocity(chunk, p, at);
       if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);
       if constexpr (P::position)
@@ -249,14 +291,14 @@ void sum_momenta(Grid& grid, std::size_t index) {
 }
 
 template <class P, class Target>
-void gather_all(System& system, double duration, const Target* targets) {
+void gather_all(System& system, double duration, const Target* targets, StressUpdate* stress) {
   Grid& grid = system.grid;
   static thread_local std::vector<TileSums> of_tile;  // of the calling thread; workers write to its elements
   std::vector<TileSums>& sums = of_tile;
   sums.resize(grid.tiles().size());
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets);
+      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets, stress);
     });
   });
   if constexpr (P::velocity) {
@@ -266,13 +308,14 @@ void gather_all(System& system, double duration, const Target* targets) {
   if constexpr (P::position)
     for (const TileSums& s : sums) system.grid_is_stale |= s.stale;
   if constexpr (P::rescatter)
-    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) { sum_momenta(grid, block); });
+    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+      sum_momenta(grid, block);
+      project_block(grid, block);
+    });
 }
 
-}  // namespace
-
-void gather(System& system, Gather what, double duration) {
-  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr); };
+void gather_plan(System& system, Gather what, double duration, StressUpdate* stress) {
+  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr, stress); };
   switch (what) {
     case Gather::strain:
       return all.template operator()<Gather::strain>();
@@ -291,12 +334,24 @@ void gather(System& system, Gather what, double duration) {
   }
 }
 
+}  // namespace
+
+void gather(System& system, Gather what, double duration) {
+  gather_plan(system, what, duration, nullptr);
+}
+
+void gather_and_update_stress(System& system, Gather what, double duration) {
+  StressUpdate stress(system, duration);
+  gather_plan(system, what, duration, &stress);
+  stress.book();
+}
+
 void gather_rates(System& system, std::span<const ParticleRates> rates) {
-  gather_all<RatesPlan>(system, 1.0, rates.data());
+  gather_all<RatesPlan>(system, 1.0, rates.data(), nullptr);
 }
 
 void gather_gradient(System& system, std::span<const ParticleGradient> gradients) {
-  gather_all<GradientPlan>(system, 1.0, gradients.data());
+  gather_all<GradientPlan>(system, 1.0, gradients.data(), nullptr);
 }
 
 double kinetic_energy(const System& system) {

@@ -1,3 +1,4 @@
+#include "mpm/nodes.hpp"
 #include "mpm/stencil.hpp"
 #include "mpm/transfer.hpp"
 
@@ -36,23 +37,31 @@ class Contributions {
     const Particles& p = body.particles;
     const ColumnReader mass(chunk, p.mass), v0(chunk, p.velocity[0]), v1(chunk, p.velocity[1]);
     const double per_cell = 1.0 / cell, specific_volume = 1.0 / body.material->parameters().elastic.density;
+    double* to = values_[0];
+    const std::size_t size = chunk.size();
+    const double* m = mass.data();
     if constexpr (P::force) {
       const ForceColumns f(chunk, p);
-#pragma omp simd
-      for (std::size_t k = 0; k < chunk.size(); ++k) {
-        const double volume = mass[k] * specific_volume;
-        double* to = values_[k] + (P::momentum ? 2 : 0);
-        to[0] = axisymmetric ? -volume * f.tt[k] / hoop_radius(radius[k], cell) : 0.0;
-        to[1] = 0.0;
-        to[P::width] = -volume * per_cell * f.rr[k], to[P::width + 1] = -volume * per_cell * f.zr[k];
-        to[2 * P::width] = -volume * per_cell * f.rz[k], to[2 * P::width + 1] = -volume * per_cell * f.zz[k];
+      const double *rr = f.rr.data(), *zz = f.zz.data(), *tt = f.tt.data(), *rz = f.rz.data(),
+                   *zr = f.zr.data(), *r = radius.data();
+      constexpr std::size_t first = P::momentum ? 2 : 0, width = P::width;
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k) {
+        double* share = to + 3 * width * k + first;
+        const double volume = m[k] * specific_volume, pull = -volume * per_cell;
+        share[0] = axisymmetric ? -volume * tt[k] / hoop_radius(r[k], cell) : 0.0, share[1] = 0.0;
+        share[width] = pull * rr[k], share[width + 1] = pull * zr[k];
+        share[2 * width] = pull * rz[k], share[2 * width + 1] = pull * zz[k];
       }
     }
-    if constexpr (P::momentum)
-      for (std::size_t k = 0; k < chunk.size(); ++k) {
-        mass_[k] = mass[k];
-        values_[k][0] = mass[k] * v0[k], values_[k][1] = mass[k] * v1[k];
+    if constexpr (P::momentum) {
+      const double *from0 = v0.data(), *from1 = v1.data();
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k) {
+        mass_[k] = m[k];
+        to[3 * P::width * k] = m[k] * from0[k], to[3 * P::width * k + 1] = m[k] * from1[k];
       }
+    }
   }
 
   double mass(std::size_t k) const {
@@ -130,14 +139,19 @@ void sum_block(Grid& grid, std::size_t index) {
 }
 
 template <Scatter what>
-void scatter_all(System& system) {
+void scatter_all(System& system, Nodes until, double duration) {
   using P = Plan<what>;
   Grid& grid = system.grid;
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
     system.team->for_each_chunk(grid.tiles().size(),
                                 [&](std::size_t tile) { scatter_tile<kind, axisymmetric, P>(system, tile); });
   });
-  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) { sum_block<P>(grid, block); });
+  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+    sum_block<P>(grid, block);
+    if (P::momentum && until != Nodes::sums) project_block(grid, block);
+    if (until == Nodes::new_velocities) accelerate_block(grid, block, system.gravity, duration);
+  });
+  if (until == Nodes::new_velocities) book_external_work(system, duration);
 }
 
 }  // namespace
@@ -163,14 +177,14 @@ void refresh_grid_for_positions(System& system) {
   refresh_grid(system);
 }
 
-void scatter(System& system, Scatter what) {
+void scatter(System& system, Scatter what, Nodes until, double duration) {
   switch (what) {
     case Scatter::momentum:
-      return scatter_all<Scatter::momentum>(system);
+      return scatter_all<Scatter::momentum>(system, until, duration);
     case Scatter::force:
-      return scatter_all<Scatter::force>(system);
+      return scatter_all<Scatter::force>(system, until, duration);
     case Scatter::momentum_and_force:
-      return scatter_all<Scatter::momentum_and_force>(system);
+      return scatter_all<Scatter::momentum_and_force>(system, until, duration);
   }
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "mpm/chunk.hpp"
 #include "mpm/tile.hpp"
 
@@ -16,14 +18,14 @@ class Stencils {
   Stencils(const Chunk& chunk, const Block& block, double per_cell, double half, const ColumnReader& r,
            const ColumnReader& z) {
     const std::int32_t column = block.column * block_side - 1, row = block.row * block_side - 1;
-#pragma omp simd
-    for (std::size_t k = 0; k < chunk.size(); ++k) {
-      const auto wr = Shape::at(r[k] * per_cell, half), wz = Shape::at(z[k] * per_cell, half);
+    const double *x = r.data(), *y = z.data();
+    const std::size_t size = chunk.size();
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < size; ++k) {
+      const auto wr = Shape::at(x[k] * per_cell, half), wz = Shape::at(y[k] * per_cell, half);
       entry_[k] = (wz.first - row) * tile_columns + (wr.first - column);
-      for (std::size_t a = 0; a < count; ++a) {
-        value_[0][a][k] = wr.value[a], value_[1][a][k] = wz.value[a];
-        slope_[0][a][k] = wr.slope[a], slope_[1][a][k] = wz.slope[a];
-      }
+      store(wr, 0, k, std::make_index_sequence<count>{});
+      store(wz, 1, k, std::make_index_sequence<count>{});
     }
   }
 
@@ -42,6 +44,12 @@ class Stencils {
   }
 
  private:
+  /// A loop inside a loop would not be vectorised.
+  template <std::size_t... a>
+  void store(const Weights1<Shape::count>& w, std::size_t axis, std::size_t k, std::index_sequence<a...>) {
+    ((value_[axis][a][k] = w.value[a], slope_[axis][a][k] = w.slope[a]), ...);
+  }
+
   std::int32_t entry_[Chunk::capacity];
   alignas(64) double value_[2][count][Chunk::capacity], slope_[2][count][Chunk::capacity];
 };

@@ -1,6 +1,20 @@
 #include "mpm/thread_team.hpp"
 
 namespace vitrum::mpm {
+namespace {
+
+/// Waits until `value` is no longer `old`. First awake, for about as long as a pass over a small scene takes:
+/// the kernel needs longer than that to wake a thread.
+template <class T>
+T wait_for_change(const std::atomic<T>& value, T old) {
+  constexpr int looks = 20000;  // about 10 us
+  for (int i = 0; i < looks; ++i)
+    if (const T now = value.load(std::memory_order_acquire); now != old) return now;
+  value.wait(old);
+  return value.load();
+}
+
+}  // namespace
 
 ThreadTeam::ThreadTeam(int threads) {
   for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
@@ -20,8 +34,7 @@ void ThreadTeam::take_chunks() {
 void ThreadTeam::work() {
   unsigned seen = 0;
   while (true) {
-    generation_.wait(seen);
-    seen = generation_.load();
+    seen = wait_for_change(generation_, seen);
     if (stop_) return;
     take_chunks();
     if (busy_.fetch_sub(1) == 1) busy_.notify_all();
@@ -37,7 +50,7 @@ void ThreadTeam::run(std::size_t chunks, Call call, void* context) {
   ++generation_;
   generation_.notify_all();
   take_chunks();
-  for (std::size_t left = busy_.load(); left != 0; left = busy_.load()) busy_.wait(left);
+  for (std::size_t left = busy_.load(); left != 0;) left = wait_for_change(busy_, left);
 }
 
 }  // namespace vitrum::mpm
