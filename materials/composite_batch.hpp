@@ -90,8 +90,9 @@ void Composite<D, Y, C>::store_variables(const PointState& s, const ParticleColu
   });
 }
 
-/// Increments that stay elastic of particles [begin, end): Hooke's law and the rotation by the spin. Returns
-/// the energy they store, J. Written to be vectorised: most particles of most steps pass here.
+/// Increments that stay elastic of particles [begin, end), at most elastic_run of them: Hooke's law and the
+/// rotation by the spin. Returns the energy they store, J. Written to be vectorised: most particles of most
+/// steps pass here.
 template <bool D, Yielding Y, bool C>
 template <bool small>
 double Composite<D, Y, C>::take_elastic_turning(const ParticleColumns& p, std::size_t begin,
@@ -100,33 +101,41 @@ double Composite<D, Y, C>::take_elastic_turning(const ParticleColumns& p, std::s
                *a3 = p.start_strain[3];
   const double *d0 = p.strain_increment[0], *d1 = p.strain_increment[1], *d2 = p.strain_increment[2],
                *d3 = p.strain_increment[3], *spin = p.spin_increment, *mass = p.mass;
-  const double* density = D ? p.start_variables[static_cast<std::size_t>(Variable::crack_density)] : nullptr;
+  const double* density = D ? p.start_variables[static_cast<std::size_t>(Variable::crack_density)] : mass;
   double *e0 = p.elastic_strain[0], *e1 = p.elastic_strain[1], *e2 = p.elastic_strain[2],
          *e3 = p.elastic_strain[3];
   double *s0 = p.stress[0], *s1 = p.stress[1], *s2 = p.stress[2], *s3 = p.stress[3];
   const double specific_volume = 1.0 / parameters_.elastic.density;
-  double stored = 0.0;
-#pragma omp simd reduction(+ : stored)
+  double energies[elastic_run];  // summed apart: a sum in the loop would have to keep its order
+#pragma GCC ivdep
   for (std::size_t i = begin; i < end; ++i) {
     const SymmetricTensor e = rotate({a0[i] + d0[i], a1[i] + d1[i], a2[i] + d2[i], a3[i] + d3[i]},
                                      small ? rotation_by_small(spin[i]) : rotation_by(spin[i]));
-    const Moduli moduli = D ? secant(trace(e) > 0.0, density[i]) : elastic_;
+    const Moduli moduli = secant_without_branches(trace(e), density[i]);
     const SymmetricTensor stress = moduli.stress(e);
     e0[i] = e.rr, e1[i] = e.zz, e2[i] = e.tt, e3[i] = e.rz;
     s0[i] = stress.rr, s1[i] = stress.zz, s2[i] = stress.tt, s3[i] = stress.rz;
-    stored += mass[i] * specific_volume * moduli.energy(e);
+    energies[i - begin] = mass[i] * specific_volume * moduli.energy(e);
   }
+  double stored = 0.0;
+#pragma omp simd reduction(+ : stored)
+  for (std::size_t k = 0; k < end - begin; ++k) stored += energies[k];
   return stored;
 }
 
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const {
   const double* spin = p.spin_increment;
-  double largest = 0.0;
+  double stored = 0.0;
+  for (std::size_t first = begin; first < end; first += elastic_run) {
+    const std::size_t last = std::min(end, first + elastic_run);
+    double largest = 0.0;
 #pragma omp simd reduction(max : largest)
-  for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, std::abs(spin[i]));
-  return largest <= small_angle ? take_elastic_turning<true>(p, begin, end)
-                                : take_elastic_turning<false>(p, begin, end);
+    for (std::size_t i = first; i < last; ++i) largest = std::max(largest, std::abs(spin[i]));
+    stored += largest <= small_angle ? take_elastic_turning<true>(p, first, last)
+                                     : take_elastic_turning<false>(p, first, last);
+  }
+  return stored;
 }
 
 /// An increment that meets events or flows. Returns the energy stored at its end, J.
