@@ -50,6 +50,7 @@ class Composite final : public Material {
 
  private:
   static constexpr bool has_yield = yielding != Yielding::none;
+  static constexpr std::size_t elastic_run = 64;  ///< most particles of one vectorised loop
   static constexpr bool elastic_only = !has_damage && !has_yield && !has_decohesion;
 
   /// A straight piece of the strain path on one side of zero mean strain.
@@ -75,6 +76,18 @@ class Composite final : public Material {
     }
   }
 
+  /// The same, for loops that are vectorised.
+  VITRUM_INLINE Moduli secant_without_branches([[maybe_unused]] double strain_trace,
+                                               [[maybe_unused]] double crack_density) const {
+    Moduli m = elastic_;
+    if constexpr (has_damage) {
+      const Moduli damaged = damage_.moduli(crack_density / crack_density_limit);
+      m.shear = crack_density > 0.0 ? damaged.shear : m.shear;
+      m.bulk = crack_density > 0.0 && strain_trace > 0.0 ? damaged.bulk : m.bulk;
+    }
+    return m;
+  }
+
   /// Calls f(Variable) for the internal variables of the models present, in the order of Variable.
   template <class F>
   static void for_own_variables([[maybe_unused]] F&& f) {
@@ -92,6 +105,11 @@ class Composite final : public Material {
   bool stays_elastic(const PointState& s, const SymmetricTensor& end, double duration) const;
   void load(const ParticleColumns& p, std::size_t i, PointState& s) const;
   void store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const;
+  template <bool small>
+  double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
+  double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
+  double take_inelastic(const ParticleColumns& p, std::size_t i, PointState& s, double duration,
+                        PointIntegrator* integrator, PointReport& point, BatchReport& report) const;
 
   // composite_intact.hpp
   double advance_intact(PointState& s, const SymmetricTensor& strain, double duration,

@@ -29,7 +29,7 @@ class DamageLaw {
   DamageLaw(const DamageParameters& parameters, const ElasticParameters& elastic);
 
   /// Damaged moduli, eqs. 5, 6, 8; written without the cancellation of 1 - D.
-  Moduli moduli(double x) const {
+  VITRUM_INLINE Moduli moduli(double x) const {
     const double nu_bar = poisson_ * (1.0 - x);
     const double common = undamaged_.bulk * (1.0 - x) * weight(x);
     return {common / (1.0 - 2.0 * nu_bar), 1.5 * common / (1.0 + nu_bar)};
@@ -87,7 +87,9 @@ class DamageLaw {
   const Moduli& undamaged() const { return undamaged_; }
 
  private:
-  double weight(double x) const { return 1.0 - 2.0 * poisson_ + poisson_ * poisson_ * x * (1.0 - x); }
+  VITRUM_INLINE double weight(double x) const {
+    return 1.0 - 2.0 * poisson_ + poisson_ * poisson_ * x * (1.0 - x);
+  }
   /// v^m; by multiplication where m is a small integer, which is several times faster than pow.
   double power(double v) const {
     if (integer_exponent_ == 0) return std::pow(v, parameters_.m);

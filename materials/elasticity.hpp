@@ -21,7 +21,7 @@ struct Moduli {
 
   constexpr double p_wave() const { return bulk + 4.0 / 3.0 * shear; }
   /// sigma = E : e
-  constexpr SymmetricTensor stress(const SymmetricTensor& e) const {
+  VITRUM_INLINE constexpr SymmetricTensor stress(const SymmetricTensor& e) const {
     const double lame_trace = (bulk - 2.0 / 3.0 * shear) * trace(e);
     return {lame_trace + 2.0 * shear * e.rr, lame_trace + 2.0 * shear * e.zz, lame_trace + 2.0 * shear * e.tt,
             2.0 * shear * e.rz};
@@ -32,9 +32,9 @@ struct Moduli {
     return {volumetric + compliance * (sigma.rr - mean), volumetric + compliance * (sigma.zz - mean),
             volumetric + compliance * (sigma.tt - mean), compliance * sigma.rz};
   }
-  /// e : E : e / 2, J per m^3 of reference volume: the stress is that of the reference volume (docs/theory.md,
-  /// 1.2), so that this is the work done on it at strains of any size.
-  constexpr double energy(const SymmetricTensor& e) const {
+  /// e : E : e / 2, J per m^3 of reference volume: the stress is that of the reference volume
+  /// (docs/theory.md, 1.2), so that this is the work done on it at strains of any size.
+  VITRUM_INLINE constexpr double energy(const SymmetricTensor& e) const {
     const double t = trace(e);
     const SymmetricTensor d = deviator(e);
     return 0.5 * bulk * t * t + shear * contract(d, d);

@@ -12,6 +12,7 @@
 namespace vitrum {
 
 using mpm::Gather;
+using mpm::Nodes;
 using mpm::Scatter;
 
 ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> step,
@@ -20,32 +21,22 @@ ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> 
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
   system.record.external_work = 0.0;
-  mpm::refresh_grid(system);
+  mpm::refresh_grid(system, mpm::Storage::sorted);
   switch (scheme_) {
     case StepScheme::usf:
-      mpm::scatter(system, Scatter::momentum);
-      mpm::project_velocities(system);
-      mpm::gather(system, Gather::strain, duration);
-      mpm::update_stress(system, duration);
-      mpm::scatter(system, Scatter::force);
-      mpm::apply_forces(system, duration);
+      mpm::scatter(system, Scatter::momentum, Nodes::velocities);
+      mpm::gather_and_update_stress(system, Gather::strain, duration);
+      mpm::scatter(system, Scatter::force, Nodes::new_velocities, duration);
       mpm::gather(system, Gather::velocity_and_position, duration);
       break;
     case StepScheme::usl:
-      mpm::scatter(system, Scatter::momentum_and_force);
-      mpm::project_velocities(system);
-      mpm::apply_forces(system, duration);
-      mpm::gather(system, Gather::all_from_new, duration);
-      mpm::update_stress(system, duration);
+      mpm::scatter(system, Scatter::momentum_and_force, Nodes::new_velocities, duration);
+      mpm::gather_and_update_stress(system, Gather::all_from_new, duration);
       break;
     case StepScheme::musl:
-      mpm::scatter(system, Scatter::momentum_and_force);
-      mpm::project_velocities(system);
-      mpm::apply_forces(system, duration);
+      mpm::scatter(system, Scatter::momentum_and_force, Nodes::new_velocities, duration);
       mpm::gather(system, Gather::velocity_and_rescatter, duration);
-      mpm::project_velocities(system);
-      mpm::gather(system, Gather::strain_and_position, duration);
-      mpm::update_stress(system, duration);
+      mpm::gather_and_update_stress(system, Gather::strain_and_position, duration);
       break;
   }
   ++system.step_index;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mpm/computation_error.hpp"
+#include "mpm/stress_update.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -43,18 +44,22 @@ ParticleColumns columns_of(Particles& p, const Committed& committed) {
       body, particle, duration);
 }
 
+/// Empty reports of the calling thread; workers write to its elements.
+std::vector<BatchReport>& cleared_reports(std::size_t count) {
+  static thread_local std::vector<BatchReport> reports;
+  if (reports.size() < count) reports.resize(count);
+  for (std::size_t k = 0; k < count; ++k) reports[k].clear();
+  return reports;
+}
+
 /// Takes all increments of a body; calls book(report) for each chunk in the order of the particles.
 template <class Book>
 void take_increments(System& system, std::size_t body_index, const ParticleColumns& columns, double duration,
                      Book&& book) {
-  static thread_local std::vector<BatchReport>
-      of_chunk;  // of the calling thread; workers write to its elements
-  std::vector<BatchReport>& reports = of_chunk;
   const Body& body = system.bodies[body_index];
   const std::size_t size = body.particles.size, chunks = (size + chunk_size - 1) / chunk_size;
-  if (reports.size() < chunks) reports.resize(chunks);
+  std::vector<BatchReport>& reports = cleared_reports(chunks);
   system.team->for_each_chunk(chunks, [&](std::size_t k) {
-    reports[k].clear();
     system.local->integrate(*body.material, columns, k * chunk_size, std::min(size, (k + 1) * chunk_size),
                             duration, reports[k]);
   });
@@ -67,24 +72,63 @@ void take_increments(System& system, std::size_t body_index, const ParticleColum
   system.constitutive_evaluations += static_cast<std::int64_t>(size);
 }
 
-}  // namespace
+/// Columns of increments that are committed.
+ParticleColumns committing_columns(Particles& p) {
+  ParticleColumns columns = columns_of(p, p);
+  point(columns.variables, p.variables);
+  return columns;
+}
 
-void update_stress(System& system, double duration) {
-  StepRecord& record = system.record;
+void open_record(StepRecord& record) {
   record.elastic = 0.0;
   record.dissipated = {};
   record.events.clear();
-  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
-    Particles& p = system.bodies[n].particles;
-    ParticleColumns columns = columns_of(p, p);
-    point(columns.variables, p.variables);
-    take_increments(system, n, columns, duration, [&](const BatchReport& report) {
-      record.elastic += report.elastic;
-      record.dissipated += report.dissipated;
-      for (const ParticleEvent& e : report.events) record.events.push_back({n, e.particle, e.event});
-    });
+}
+
+void enter(StepRecord& record, std::size_t body, const BatchReport& report) {
+  record.elastic += report.elastic;
+  record.dissipated += report.dissipated;
+  for (const ParticleEvent& e : report.events) record.events.push_back({body, e.particle, e.event});
+}
+
+}  // namespace
+
+StressUpdate::StressUpdate(System& system, double duration)
+    : system_(system),
+      duration_(duration),
+      reports_(cleared_reports(system.grid.tiles().size() * system.bodies.size())) {
+  for (Body& body : system.bodies) columns_.push_back(committing_columns(body.particles));
+}
+
+void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk) {
+  BatchReport& report = reports_[tile * columns_.size() + body];
+  for (std::size_t first = 0, end; first < chunk.size(); first = end) {
+    end = first + 1;
+    while (end < chunk.size() && chunk.place(end) == chunk.place(end - 1) + 1) ++end;
+    system_.local->integrate(*system_.bodies[body].material, columns_[body], chunk.place(first),
+                             chunk.place(end - 1) + 1, duration_, report);
   }
-  system.constitutive_events += static_cast<std::int64_t>(record.events.size());
+}
+
+void StressUpdate::book() {
+  const std::size_t bodies = columns_.size(), reports = system_.grid.tiles().size() * bodies;
+  for (std::size_t k = 0; k < reports; ++k)
+    if (reports_[k].failed) fail(system_, k % bodies, *reports_[k].failed, duration_, reports_[k].cause);
+  open_record(system_.record);
+  for (std::size_t k = 0; k < reports; ++k) {
+    system_.constitutive_solver += reports_[k].solver;
+    enter(system_.record, k % bodies, reports_[k]);
+  }
+  system_.constitutive_evaluations += static_cast<std::int64_t>(system_.particle_count());
+  system_.constitutive_events += static_cast<std::int64_t>(system_.record.events.size());
+}
+
+void update_stress(System& system, double duration) {
+  open_record(system.record);
+  for (std::size_t n = 0; n < system.bodies.size(); ++n)
+    take_increments(system, n, committing_columns(system.bodies[n].particles), duration,
+                    [&](const BatchReport& report) { enter(system.record, n, report); });
+  system.constitutive_events += static_cast<std::int64_t>(system.record.events.size());
 }
 
 void try_stress(System& system, const Trial& trial, double duration) {

@@ -1,15 +1,11 @@
 #include "mpm/axis.hpp"
-#include "mpm/tile.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/stencil.hpp"
+#include "mpm/stress_update.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
 namespace {
-
-// Slots of a local tile: the velocity for the strain, the velocity that moves particles (for rates: the
-// acceleration), the velocity's change.
-constexpr std::size_t strain_slot = 0, motion_slot = 2, change_slot = 4;
-// Slots of the grid's own tile in which MUSL sums the second momenta.
-constexpr std::size_t momentum_slot = 1;
 
 /// What the particles of a tile contribute to the record of the step.
 struct TileSums {
@@ -17,163 +13,292 @@ struct TileSums {
   bool stale = false;
 };
 
+/// What a node offers, as one pack: first the vector whose gradient or change is wanted, then the one that
+/// moves particles (for rates: the acceleration).
+enum class First { velocity, change };
+
 template <Gather what>
 struct Plan {
   static constexpr bool strain =
       what == Gather::strain || what == Gather::strain_and_position || what == Gather::all_from_new;
-  static constexpr bool strain_from_new = what == Gather::all_from_new;
   static constexpr bool velocity = what == Gather::velocity || what == Gather::velocity_and_position ||
                                    what == Gather::all_from_new || what == Gather::velocity_and_rescatter;
   static constexpr bool rescatter = what == Gather::velocity_and_rescatter;
   static constexpr bool position = what == Gather::position || what == Gather::velocity_and_position ||
                                    what == Gather::all_from_new || what == Gather::strain_and_position;
-  static constexpr bool rates = false, gradient = false;
+  static constexpr bool rates = false, gradient = strain;
+  static constexpr First first = velocity ? First::change : First::velocity;
+  static constexpr int width = position ? 4 : 2;
+  static constexpr int gradient_of =
+      what == Gather::all_from_new ? 2 : 0;  ///< place of the vector in the pack
 };
 
 /// Plans of the passes that leave the particles as they are.
 struct RatesPlan {
-  static constexpr bool strain = false, strain_from_new = false, velocity = false, rescatter = false,
-                        position = false, rates = true, gradient = true;
+  static constexpr bool strain = false, velocity = false, rescatter = false, position = false, rates = true,
+                        gradient = true;
+  static constexpr First first = First::velocity;
+  static constexpr int width = 4, gradient_of = 0;
 };
 struct GradientPlan {
-  static constexpr bool strain = false, strain_from_new = false, velocity = false, rescatter = false,
-                        position = false, rates = false, gradient = true;
+  static constexpr bool strain = false, velocity = false, rescatter = false, position = false, rates = false,
+                        gradient = true;
+  static constexpr First first = First::velocity;
+  static constexpr int width = 2, gradient_of = 0;
 };
 
-struct TileReader {
-  const Block& block;
-  bool at_axis;
-
-  void load(const double* field, double* tile, double parity) const {
-    load_tile(block, field, tile);
-    if (at_axis) mirror_axis(tile, parity);
+/// The nodes of a tile as one plan sees them.
+template <class P>
+class NodePacks {
+ public:
+  NodePacks(const Grid& grid, const Block& block, bool at_axis) {
+    const double* v[] = {grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
+    const double* w[] = {grid.field(Field::new_velocity_0), grid.field(Field::new_velocity_1)};
+    double* to = reinterpret_cast<double*>(nodes_);
+    for (std::size_t c = 0; c < 2; ++c) {
+      load_tile(
+          block, [&](std::size_t n) { return P::first == First::velocity ? v[c][n] : w[c][n] - v[c][n]; },
+          [&](std::size_t entry, double value) { to[P::width * entry + c] = value; });
+      if constexpr (P::width == 4)
+        load_tile(
+            block, [&](std::size_t n) { return w[c][n]; },
+            [&](std::size_t entry, double value) { to[P::width * entry + 2 + c] = value; });
+    }
+    if (at_axis) mirror_axis(nodes_, axis_parity<P::width>);
   }
+  const Pack<P::width>& operator[](std::size_t entry) const { return nodes_[entry]; }
+
+ private:
+  Pack<P::width> nodes_[tile_nodes];
 };
 
-void store(const ParticleGradient& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
-  to.gradient[0][i] = rr, to.gradient[1][i] = rz, to.gradient[2][i] = zr, to.gradient[3][i] = zz;
-  to.gradient[4][i] = tt;
-}
-void store(const ParticleRates& to, std::size_t i, double rr, double rz, double zr, double zz, double tt) {
-  const SymmetricTensor e = rotate({rr, zz, tt, 0.5 * (rz + zr)}, rotation_by(-to.turn[i]));
-  to.strain[0][i] = e.rr, to.strain[1][i] = e.zz, to.strain[2][i] = e.tt, to.strain[3][i] = e.rz;
-  to.spin[i] = 0.5 * (zr - rz);
-}
-
-/// P: a plan. targets: by body, for the plans that have a target; otherwise null.
-template <ShapeKind kind, bool axisymmetric, class P, class Target>
-TileSums gather_tile(System& system, std::size_t tile, double duration,
-                     [[maybe_unused]] const Target* targets) {
-  using S = Shape1<kind>;
-  Grid& grid = system.grid;
-  const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
-  const TileReader reader{block, axisymmetric && kind != ShapeKind::linear && block.column == 0};
-  alignas(64) double local[6][tile_nodes];
-  double *s0 = local[strain_slot], *s1 = local[strain_slot + 1];  // strain
-  double *m0 = local[motion_slot], *m1 = local[motion_slot + 1];  // new velocity: motion
-  double *d0 = local[change_slot], *d1 = local[change_slot + 1];  // new minus old
-  if constexpr (P::velocity || P::position || P::rates) {
-    reader.load(grid.field(Field::new_velocity_0), m0, -1.0);
-    reader.load(grid.field(Field::new_velocity_1), m1, 1.0);
-  }
-  if constexpr (P::velocity || P::gradient || (P::strain && !P::strain_from_new)) {
-    reader.load(grid.field(Field::velocity_0), s0, -1.0);
-    reader.load(grid.field(Field::velocity_1), s1, 1.0);
-  }
-  if constexpr (P::velocity)
-    for (std::size_t n = 0; n < tile_nodes; ++n) d0[n] = m0[n] - s0[n], d1[n] = m1[n] - s1[n];
-  if constexpr (P::strain_from_new) s0 = m0, s1 = m1;
-  double *p0 = grid.tile_data(tile) + momentum_slot * tile_nodes, *p1 = p0 + tile_nodes;
-  if constexpr (P::rescatter) std::fill(p0, p0 + 2 * tile_nodes, 0.0);
-
-  TileSums sums;
-  const CellRange range(block);
-  const double per_cell = 1.0 / grid.cell();
-  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
-    const auto [begin, end] = grid.particles(tile, n);
-    if (begin == end) continue;
-    Body& body = system.bodies[n];
-    Particles& p = body.particles;
-    const double half = body.particle_half_size * per_cell;
-    for (const std::uint32_t* k = begin; k != end; ++k) {
-      const std::size_t i = *k;
-      const double r = p.position[0][i], z = p.position[1][i];
-      const auto wr = S::at(r * per_cell, half), wz = S::at(z * per_cell, half);
-      const std::size_t entry = tile_entry(block, wr, wz);
-      double rr = 0.0, rz = 0.0, zr = 0.0, zz = 0.0, vr = 0.0, dv0 = 0.0, dv1 = 0.0, dx0 = 0.0, dx1 = 0.0;
-      for (std::size_t b = 0; b < S::count; ++b)
-        for (std::size_t a = 0; a < S::count; ++a) {
-          const std::size_t node = entry + b * tile_columns + a;
-          const double N = wr.value[a] * wz.value[b];
-          if constexpr (P::strain || P::gradient) {
-            const double Nr = wr.slope[a] * wz.value[b], Nz = wr.value[a] * wz.slope[b];
-            rr += Nr * s0[node];
-            rz += Nz * s0[node];
-            zr += Nr * s1[node];
-            zz += Nz * s1[node];
-            if constexpr (axisymmetric) vr += N * s0[node];
-          }
-          if constexpr (P::velocity) dv0 += N * d0[node], dv1 += N * d1[node];
-          if constexpr (P::position) dx0 += N * m0[node], dx1 += N * m1[node];
-          if constexpr (P::rates) {
-            dx0 += N * s0[node], dx1 += N * s1[node];
-            dv0 += N * m0[node], dv1 += N * m1[node];
+/// Nodal packs interpolated at the particles of a chunk, and (plans with a gradient) their h d/dr and h d/dz.
+template <class P>
+class Interpolated {
+ public:
+  template <class Stencils>
+  void gather(const Stencils& at, std::size_t size, const NodePacks<P>& nodes) {
+    for (std::size_t k = 0; k < size; ++k) {
+      Pack<P::width> value{}, r{}, z{};
+      for (std::size_t b = 0; b < at.count; ++b)
+        for (std::size_t a = 0; a < at.count; ++a) {
+          const Pack<P::width>& node = nodes[at.entry(k) + b * tile_columns + a];
+          value += at.value(0, a, k) * at.value(1, b, k) * node;
+          if constexpr (P::gradient) {
+            r += at.slope(0, a, k) * at.value(1, b, k) * node;
+            z += at.value(0, a, k) * at.slope(1, b, k) * node;
           }
         }
-      if constexpr (P::gradient)
-        store(targets[n], i, per_cell * rr, per_cell * rz, per_cell * zr, per_cell * zz,
-              axisymmetric ? vr / hoop_radius(r, grid.cell()) : 0.0);
-      if constexpr (P::rates) {
-        targets[n].position[0][i] = dx0, targets[n].position[1][i] = dx1;
-        targets[n].velocity[0][i] = dv0, targets[n].velocity[1][i] = dv1;
-      }
-      if constexpr (P::strain) {
-        const double scale = duration * per_cell;
-        const double hoop = axisymmetric ? duration * vr / hoop_radius(r, grid.cell()) : 0.0;
-        const double spin = 0.5 * scale * (zr - rz);
-        // The integral of R^T D R over the increment, R turning from 0 to `spin`.
-        const SymmetricTensor e =
-            rotate({scale * rr, scale * zz, hoop, 0.5 * scale * (rz + zr)}, rotation_by(-0.5 * spin));
-        p.strain_increment[0][i] = e.rr, p.strain_increment[1][i] = e.zz;
-        p.strain_increment[2][i] = e.tt, p.strain_increment[3][i] = e.rz;
-        p.spin_increment[i] = spin;
-      }
-      if constexpr (P::velocity) {
-        const double v0 = p.velocity[0][i] += dv0, v1 = p.velocity[1][i] += dv1;
-        sums.kinetic += 0.5 * p.mass[i] * (v0 * v0 + v1 * v1);
-      }
-      if constexpr (P::rescatter) {
-        const double mv0 = p.mass[i] * p.velocity[0][i], mv1 = p.mass[i] * p.velocity[1][i];
-        for (std::size_t b = 0; b < S::count; ++b)
-          for (std::size_t a = 0; a < S::count; ++a) {
-            const double N = wr.value[a] * wz.value[b];
-            p0[entry + b * tile_columns + a] += N * mv0;
-            p1[entry + b * tile_columns + a] += N * mv1;
-          }
-      }
-      if constexpr (P::position) {
-        double x0 = r + duration * dx0;
-        const double x1 = z + duration * dx1;
-        if (axisymmetric && x0 < 0.0) x0 = -x0, reflect_at_axis(p, i);
-        p.position[0][i] = x0, p.position[1][i] = x1;
-        sums.stale |= !range.contains(x0 * per_cell, x1 * per_cell);
-      }
+      value_[k] = value;
+      if constexpr (P::gradient) r_[k] = r, z_[k] = z;
     }
   }
+
+  /// Component `place` of the k-th pack is at [width k + place].
+  const double* values() const { return reinterpret_cast<const double*>(value_); }
+  /// The same for the plan's gradient: h d/dr and h d/dz of a vector's components 0 and 1; and the vector
+  /// itself.
+  const double* along_r() const { return reinterpret_cast<const double*>(r_) + P::gradient_of; }
+  const double* along_z() const { return reinterpret_cast<const double*>(z_) + P::gradient_of; }
+  const double* differentiated() const { return values() + P::gradient_of; }
+
+ private:
+  Pack<P::width> value_[Chunk::capacity];
+  Pack<P::width> r_[P::gradient ? Chunk::capacity : 1], z_[P::gradient ? Chunk::capacity : 1];
+};
+
+/// Strain increments of a chunk: the integral of R^T D R over the increment, R turning from 0 to `spin`.
+template <bool axisymmetric, bool small, class P>
+void store_turned(std::size_t size, const Interpolated<P>& at, const double* spin, const double* radius,
+                  double cell, double duration, const std::array<double*, 4>& to) {
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated();
+  double *e0 = to[0], *e1 = to[1], *e2 = to[2], *e3 = to[3];
+  const double scale = duration / cell;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t n = P::width * k;
+    const double hoop = axisymmetric ? duration * v[n] / hoop_radius(radius[k], cell) : 0.0;
+    const Rotation turn = small ? rotation_by_small(-0.5 * spin[k]) : rotation_by(-0.5 * spin[k]);
+    const SymmetricTensor e =
+        rotate({scale * r[n], scale * z[n + 1], hoop, 0.5 * scale * (z[n] + r[n + 1])}, turn);
+    e0[k] = e.rr, e1[k] = e.zz, e2[k] = e.tt, e3[k] = e.rz;
+  }
+}
+
+/// Strain and spin increments of a chunk over `duration`.
+template <bool axisymmetric, class P>
+void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& radius,
+                  double cell, double duration) {
+  ColumnWriter e0(chunk, p.strain_increment[0]), e1(chunk, p.strain_increment[1]),
+      e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spins(chunk, p.spin_increment);
+  const double *r = at.along_r(), *z = at.along_z();
+  double *spin = spins.data(), largest = 0.0;
+  const double half_scale = 0.5 * duration / cell;
+  const std::size_t size = chunk.size();
+#pragma omp simd reduction(max : largest)
+  for (std::size_t k = 0; k < size; ++k) {
+    spin[k] = half_scale * (r[P::width * k + 1] - z[P::width * k]);
+    largest = std::max(largest, std::abs(spin[k]));
+  }
+  const std::array<double*, 4> to{e0.data(), e1.data(), e2.data(), e3.data()};
+  if (0.5 * largest <= small_angle)
+    store_turned<axisymmetric, true>(size, at, spin, radius.data(), cell, duration, to);
+  else
+    store_turned<axisymmetric, false>(size, at, spin, radius.data(), cell, duration, to);
+}
+
+/// Adds the interpolated change to the velocities; returns the kinetic energy of the chunk then.
+template <class P>
+double store_velocity(const Chunk& chunk, Particles& p, const Interpolated<P>& at) {
+  const ColumnReader old0(chunk, p.velocity[0]), old1(chunk, p.velocity[1]), masses(chunk, p.mass);
+  ColumnWriter new0(chunk, p.velocity[0]), new1(chunk, p.velocity[1]);
+  const double *from0 = old0.data(), *from1 = old1.data(), *mass = masses.data(), *change = at.values();
+  double *to0 = new0.data(), *to1 = new1.data(), kinetic = 0.0;
+  const std::size_t size = chunk.size();
+#pragma omp simd reduction(+ : kinetic)
+  for (std::size_t k = 0; k < size; ++k) {
+    const double v0 = from0[k] + change[P::width * k], v1 = from1[k] + change[P::width * k + 1];
+    to0[k] = v0, to1[k] = v1;
+    kinetic += 0.5 * mass[k] * (v0 * v0 + v1 * v1);
+  }
+  return kinetic;
+}
+
+/// Adds the momenta of a chunk to the nodes of its tile.
+template <class Stencils>
+void add_momenta(const Chunk& chunk, const Particles& p, const Stencils& at, Pack<2>* nodes) {
+  const ColumnReader mass(chunk, p.mass), v0(chunk, p.velocity[0]), v1(chunk, p.velocity[1]);
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const Pack<2> momentum{mass[k] * v0[k], mass[k] * v1[k]};
+    for (std::size_t b = 0; b < at.count; ++b)
+      for (std::size_t a = 0; a < at.count; ++a)
+        nodes[at.entry(k) + b * tile_columns + a] += at.value(0, a, k) * at.value(1, b, k) * momentum;
+  }
+}
+
+/// Moves the particles of a chunk. Whether some particle leaves the cells that its block was made for.
+template <bool axisymmetric, class P>
+bool store_position(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& r,
+                    const ColumnReader& z, const CellRange& block_cells, double duration) {
+  ColumnWriter new0(chunk, p.position[0]), new1(chunk, p.position[1]);
+  const double *from0 = r.data(), *from1 = z.data(), *v = at.values() + P::width - 2;
+  double *to0 = new0.data(), *to1 = new1.data();
+  double moved[Chunk::capacity];  // where the axis is no obstacle
+  const CellRange cells = block_cells;
+  const std::size_t size = chunk.size();
+  int beyond = 0, left = 0;
+#pragma omp simd reduction(| : beyond, left)
+  for (std::size_t k = 0; k < size; ++k) {
+    const double x0 = from0[k] + duration * v[P::width * k], x1 = from1[k] + duration * v[P::width * k + 1];
+    moved[k] = x0;
+    to0[k] = axisymmetric ? std::abs(x0) : x0, to1[k] = x1;
+    beyond |= x0 < 0.0 ? 1 : 0;
+    left |= cells.contain(axisymmetric ? std::abs(x0) : x0, x1) ? 0 : 1;
+  }
+  if (axisymmetric && beyond != 0)
+    for (std::size_t k = 0; k < size; ++k)
+      if (moved[k] < 0.0) reflect_at_axis(p, chunk.place(k));
+  return left != 0;
+}
+
+/// Gradients of a chunk (1/s), in the axes of space or, for rates, in those that have turned with the
+/// particle.
+template <bool axisymmetric, class P>
+void store_gradient(const Chunk& chunk, const ParticleGradient& to, const Interpolated<P>& at,
+                    const ColumnReader& radius, double cell) {
+  ColumnWriter rr(chunk, to.gradient[0]), rz(chunk, to.gradient[1]), zr(chunk, to.gradient[2]),
+      zz(chunk, to.gradient[3]), tt(chunk, to.gradient[4]);
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const std::size_t n = P::width * k;
+    rr[k] = per_cell * r[n], rz[k] = per_cell * z[n], zr[k] = per_cell * r[n + 1],
+    zz[k] = per_cell * z[n + 1];
+    tt[k] = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
+  }
+}
+template <bool axisymmetric, class P>
+void store_gradient(const Chunk& chunk, const ParticleRates& to, const Interpolated<P>& at,
+                    const ColumnReader& radius, double cell) {
+  ColumnWriter rr(chunk, to.strain[0]), zz(chunk, to.strain[1]), tt(chunk, to.strain[2]),
+      rz(chunk, to.strain[3]), spin(chunk, to.spin);
+  const ColumnReader turn(chunk, to.turn);
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
+  for (std::size_t k = 0; k < chunk.size(); ++k) {
+    const std::size_t n = P::width * k;
+    const double hoop = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
+    const SymmetricTensor e =
+        rotate({per_cell * r[n], per_cell * z[n + 1], hoop, 0.5 * per_cell * (z[n] + r[n + 1])},
+               rotation_by(-turn[k]));
+    rr[k] = e.rr, zz[k] = e.zz, tt[k] = e.tt, rz[k] = e.rz;
+    spin[k] = 0.5 * per_cell * (r[n + 1] - z[n]);
+  }
+}
+
+/// P: a plan. targets: by body, for the plans that have a target; otherwise null. stress: null where it is
+/// not updated.
+template <ShapeKind kind, bool axisymmetric, class P, class Target>
+TileSums gather_tile(System& system, std::size_t tile, double duration,
+                     [[maybe_unused]] const Target* targets, [[maybe_unused]] StressUpdate* stress) {
+  Grid& grid = system.grid;
+  const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
+  const bool at_axis = axisymmetric && kind != ShapeKind::linear && block.column == 0;
+  const NodePacks<P> nodes(grid, block, at_axis);
+  Pack<2>* momenta = grid.tile_data(tile).template packs<2>();
+  if constexpr (P::rescatter) std::fill(momenta, momenta + tile_nodes, Pack<2>{});
+
+  TileSums sums;
+  const double cell = grid.cell(), per_cell = 1.0 / cell;
+  [[maybe_unused]] const CellRange cells(block, per_cell);
+  Interpolated<P> at;
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    Body& body = system.bodies[n];
+    Particles& p = body.particles;
+    for_chunks(grid, tile, n, [&](const Chunk& chunk) {
+      const ColumnReader r(chunk, p.position[0]), z(chunk, p.position[1]);
+      const Stencils<kind> stencils(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      at.gather(stencils, chunk.size(), nodes);
+      if constexpr (P::gradient && !P::strain) store_gradient<axisymmetric>(chunk, targets[n], at, r, cell);
+      if constexpr (P::rates)
+        for (std::size_t c = 0; c < 2; ++c) {
+          ColumnWriter x(chunk, targets[n].position[c]), v(chunk, targets[n].velocity[c]);
+          for (std::size_t k = 0; k < chunk.size(); ++k)
+            x[k] = at.values()[P::width * k + c], v[k] = at.values()[P::width * k + 2 + c];
+        }
+      if constexpr (P::strain) {
+        store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
+        if (stress != nullptr) stress->take(tile, n, chunk);
+      }
+      if constexpr (P::velocity) sums.kinetic += store_velocity(chunk, p, at);
+      if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);
+      if constexpr (P::position)
+        sums.stale |= store_position<axisymmetric>(chunk, p, at, r, z, cells, duration);
+    });
+  }
   if constexpr (P::rescatter && axisymmetric && kind != ShapeKind::linear)
-    if (block.column == 0) fold_axis(p0, -1.0), fold_axis(p1, 1.0);
+    if (block.column == 0) fold_axis(momenta, axis_parity<2>);
   return sums;
 }
 
+/// Adds up what the tiles hold for the momenta of a block's nodes.
+void sum_momenta(Grid& grid, std::size_t index) {
+  Pack<2> sum[block_nodes]{};
+  for_shares(grid, grid.blocks()[index], [&](const TileData& tile, std::size_t entry, std::size_t node) {
+    sum[node] += tile.packs<2>()[entry];
+  });
+  double *p0 = grid.field(Field::momentum_0) + index * block_nodes,
+         *p1 = grid.field(Field::momentum_1) + index * block_nodes;
+  for (int node = 0; node < block_nodes; ++node) p0[node] = sum[node][0], p1[node] = sum[node][1];
+}
+
 template <class P, class Target>
-void gather_all(System& system, double duration, const Target* targets) {
+void gather_all(System& system, double duration, const Target* targets, StressUpdate* stress) {
   Grid& grid = system.grid;
   static thread_local std::vector<TileSums> of_tile;  // of the calling thread; workers write to its elements
   std::vector<TileSums>& sums = of_tile;
   sums.resize(grid.tiles().size());
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets);
+      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets, stress);
     });
   });
   if constexpr (P::velocity) {
@@ -183,16 +308,14 @@ void gather_all(System& system, double duration, const Target* targets) {
   if constexpr (P::position)
     for (const TileSums& s : sums) system.grid_is_stale |= s.stale;
   if constexpr (P::rescatter)
-    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t n) {
-      reduce_tiles(grid, grid.blocks()[n], n, momentum_slot, Field::momentum_0);
-      reduce_tiles(grid, grid.blocks()[n], n, momentum_slot + 1, Field::momentum_1);
+    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+      sum_momenta(grid, block);
+      project_block(grid, block);
     });
 }
 
-}  // namespace
-
-void gather(System& system, Gather what, double duration) {
-  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr); };
+void gather_plan(System& system, Gather what, double duration, StressUpdate* stress) {
+  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr, stress); };
   switch (what) {
     case Gather::strain:
       return all.template operator()<Gather::strain>();
@@ -211,12 +334,24 @@ void gather(System& system, Gather what, double duration) {
   }
 }
 
+}  // namespace
+
+void gather(System& system, Gather what, double duration) {
+  gather_plan(system, what, duration, nullptr);
+}
+
+void gather_and_update_stress(System& system, Gather what, double duration) {
+  StressUpdate stress(system, duration);
+  gather_plan(system, what, duration, &stress);
+  stress.book();
+}
+
 void gather_rates(System& system, std::span<const ParticleRates> rates) {
-  gather_all<RatesPlan>(system, 1.0, rates.data());
+  gather_all<RatesPlan>(system, 1.0, rates.data(), nullptr);
 }
 
 void gather_gradient(System& system, std::span<const ParticleGradient> gradients) {
-  gather_all<GradientPlan>(system, 1.0, gradients.data());
+  gather_all<GradientPlan>(system, 1.0, gradients.data(), nullptr);
 }
 
 double kinetic_energy(const System& system) {

@@ -46,17 +46,17 @@ void Grid::rebuild(const std::vector<Body>& bodies) {
   add_neighbours();
   mark_constraints();
   for (std::vector<double>& field : fields_) field.resize(blocks_.size() * block_nodes);
-  tile_data_.resize(tile_block_.size() * tile_stride);
+  tile_data_.resize(tile_block_.size());
 }
 
 bool Grid::has_left(std::size_t tile, const std::vector<Body>& bodies) const {
-  const CellRange range(blocks_[static_cast<std::size_t>(tile_block_[tile])]);
-  const double per_cell = 1.0 / cell_;
+  const Block& block = blocks_[static_cast<std::size_t>(tile_block_[tile])];
+  const CellRange cells(block, 1.0 / cell_);
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const auto& x = bodies[n].particles.position;
-    const auto [begin, end] = particles(tile, n);
-    for (const std::uint32_t* k = begin; k != end; ++k)
-      if (!range.contains(x[0][*k] * per_cell, x[1][*k] * per_cell)) return true;
+    const Range range = particles(tile, n);
+    for (const std::uint32_t* k = range.begin; k != range.end; ++k)
+      if (!cells.contain(x[0][*k], x[1][*k])) return true;
   }
   return false;
 }
@@ -120,7 +120,7 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
   }
   blocks_ = std::move(sorted);
 
-  // Counting sort by (tile, body); within a list particles keep their order of storage.
+  // Counting sort by (tile, body); within a list by identity, so that sums do not depend on the storage.
   offset_.assign(count * body_count_ + 1, 0);
   k = 0;
   for (std::size_t body = 0; body < body_count_; ++body)
@@ -131,9 +131,31 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   std::vector<std::uint32_t> next(offset_.begin(), offset_.end() - 1);
   k = 0;
-  for (std::size_t body = 0; body < body_count_; ++body)
-    for (std::size_t p = 0; p < bodies[body].particles.size; ++p, ++k)
-      index_[next[static_cast<std::size_t>(home_[k]) * body_count_ + body]++] = static_cast<std::uint32_t>(p);
+  for (std::size_t body = 0; body < body_count_; ++body) k = append(bodies[body].particles, body, k, next);
+  contiguous_.resize(count * body_count_);
+  for (std::size_t list = 0; list < contiguous_.size(); ++list)
+    contiguous_[list] = std::adjacent_find(index_.begin() + offset_[list], index_.begin() + offset_[list + 1],
+                                           [](std::uint32_t a, std::uint32_t b) { return b != a + 1; }) ==
+                        index_.begin() + offset_[list + 1];
+}
+
+/// Enters the particles of a body into their lists by rising identity. home: place of the body's first entry
+/// in home_; returns that of the next body's.
+std::size_t Grid::append(const Particles& p, std::size_t body, std::size_t home,
+                         std::vector<std::uint32_t>& next) {
+  const auto enter = [&](std::uint32_t particle) {
+    const auto tile = static_cast<std::size_t>(home_[home + particle]);
+    index_[next[tile * body_count_ + body]++] = particle;
+  };
+  const auto size = static_cast<std::uint32_t>(p.size);
+  if (std::is_sorted(p.identity.begin(), p.identity.end())) {
+    for (std::uint32_t i = 0; i < size; ++i) enter(i);
+  } else {
+    place_.resize(size);
+    for (std::uint32_t i = 0; i < size; ++i) place_[p.identity[i]] = i;
+    for (std::uint32_t identity = 0; identity < size; ++identity) enter(place_[identity]);
+  }
+  return home + size;
 }
 
 /// Adds the blocks whose nodes particles of other blocks may touch, and links all blocks.

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mpm/pack.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/shape.hpp"
 
@@ -15,6 +16,23 @@ inline constexpr int block_nodes = block_side * block_side;
 /// A block's tile: the nodes that particles of its cells can touch, columns and rows -1 .. 9 (one spare
 /// column for alignment).
 inline constexpr int tile_columns = 12, tile_rows = 11, tile_nodes = tile_columns * tile_rows;
+
+/// What the particles of one block's cells add to the nodes that they touch. The vectors of a node lie side
+/// by side, because a particle's contribution to all of them is computed as one.
+struct alignas(64) TileData {
+  Pack<4> vectors[tile_nodes];
+  double mass[tile_nodes];
+
+  /// One (width 2) or two (width 4) vectors a node.
+  template <int width>
+  Pack<width>* packs() {
+    return reinterpret_cast<Pack<width>*>(vectors);
+  }
+  template <int width>
+  const Pack<width>* packs() const {
+    return reinterpret_cast<const Pack<width>*>(vectors);
+  }
+};
 
 /// Per-node quantities of a step.
 enum class Field : std::size_t {
@@ -44,20 +62,22 @@ struct Block {
       cells{};  ///< first and last cell column, first and last row its particles may be in
 };
 
-/// The cells that a block's particles may be in, for positions counted in cells. A comparison of doubles: it
-/// holds for positions that no integer can hold, and is false for what is not a number.
+/// The positions that lie in the cells that a block's particles may be in. A comparison of doubles: it holds
+/// for positions that no integer can hold, and is false for what is not a number.
 class CellRange {
  public:
-  explicit CellRange(const Block& block)
-      : low_{static_cast<double>(block.cells[0]), static_cast<double>(block.cells[2])},
-        high_{static_cast<double>(block.cells[1] + 1), static_cast<double>(block.cells[3] + 1)} {}
+  CellRange(const Block& b, double per_cell)
+      : per_cell_(per_cell),
+        min_{static_cast<double>(b.cells[0]), static_cast<double>(b.cells[2])},
+        max_{static_cast<double>(b.cells[1] + 1), static_cast<double>(b.cells[3] + 1)} {}
 
-  bool contains(double x0, double x1) const {
-    return x0 >= low_[0] && x0 < high_[0] && x1 >= low_[1] && x1 < high_[1];
+  bool contain(double x0, double x1) const {
+    const double c0 = x0 * per_cell_, c1 = x1 * per_cell_;
+    return (c0 >= min_[0]) & (c0 < max_[0]) & (c1 >= min_[1]) & (c1 < max_[1]);
   }
 
  private:
-  std::array<double, 2> low_, high_;
+  double per_cell_, min_[2], max_[2];
 };
 
 /// A component of a node's velocity that is not free.
@@ -80,29 +100,31 @@ class Grid {
   Grid(double cell, ShapeKind shape, bool axisymmetric, std::vector<Boundary> boundaries)
       : cell_(cell), shape_(shape), axisymmetric_(axisymmetric), boundaries_(std::move(boundaries)) {}
 
-  /// Sorts the particles into blocks anew. Depends on positions only, not on history. Throws ComputationError
-  /// for positions that are not finite or too far away (2^31 cells).
+  /// Sorts the particles into blocks anew. Depends on positions and identities only, not on history or on how
+  /// particles are stored. Throws ComputationError for positions that are not finite or too far away (2^31
+  /// cells).
   void rebuild(const std::vector<Body>& bodies);
+  /// Moves the particles of all bodies in memory so that those of a block lie one behind the other.
+  void sort_storage(std::vector<Body>& bodies);
 
   /// Whether some particle of a tile is no longer in the cells that the tile was made for.
   bool has_left(std::size_t tile, const std::vector<Body>& bodies) const;
 
-  /// Particles of `body` in the block with tile `t`.
+  /// Particles of `body` in the block with tile `t`, by rising identity.
   struct Range {
     const std::uint32_t *begin, *end;
+    bool contiguous;  ///< whether they lie one behind the other in their columns
   };
   Range particles(std::size_t tile, std::size_t body) const {
     const std::size_t k = tile * body_count_ + body;
-    return {index_.data() + offset_[k], index_.data() + offset_[k + 1]};
+    return {index_.data() + offset_[k], index_.data() + offset_[k + 1], contiguous_[k] != 0};
   }
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const std::vector<std::int32_t>& tiles() const { return tile_block_; }
   double* field(Field f) { return fields_[static_cast<std::size_t>(f)].data(); }
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
-  /// Scratch of one tile for up to five fields.
-  double* tile_data(std::size_t tile) { return tile_data_.data() + tile * tile_stride; }
-  static constexpr std::size_t tile_stride = 5 * tile_nodes;
+  TileData& tile_data(std::size_t tile) { return tile_data_[tile]; }
 
   std::int16_t constraint(std::size_t component, std::size_t node) const {
     return constraints_[component][node];
@@ -114,6 +136,8 @@ class Grid {
 
  private:
   void sort_particles(const std::vector<Body>& bodies);
+  std::size_t append(const Particles& p, std::size_t body, std::size_t home,
+                     std::vector<std::uint32_t>& next);
   void add_neighbours();
   void mark_constraints();
 
@@ -126,11 +150,13 @@ class Grid {
   std::vector<Block> blocks_;
   std::vector<std::int32_t> tile_block_;       // tile -> block
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
+  std::vector<char> contiguous_;               // by (tile, body)
   std::vector<std::int32_t> home_;             // scratch: block of each particle
+  std::vector<std::uint32_t> place_;           // scratch: place of each identity
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;
-  std::vector<double> tile_data_;
+  std::vector<TileData> tile_data_;
 };
 
 }  // namespace vitrum::mpm

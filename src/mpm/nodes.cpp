@@ -1,3 +1,5 @@
+#include "mpm/nodes.hpp"
+
 #include <limits>
 
 #include "mpm/transfer.hpp"
@@ -54,39 +56,49 @@ bool has_external_work(const System& system) {
   return works;
 }
 
-void project_velocities(System& system) {
-  Grid& grid = system.grid;
+void project_block(Grid& grid, std::size_t block) {
   const double *mass = grid.field(Field::mass), *p0 = grid.field(Field::momentum_0),
                *p1 = grid.field(Field::momentum_1);
   double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
-  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
-    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
-      const double per_mass = mass[n] > empty ? 1.0 / mass[n] : 0.0;
-      v0[n] = p0[n] * per_mass;
-      v1[n] = p1[n] * per_mass;
-    }
-    if (grid.blocks()[block].constrained) impose(grid, block, Field::velocity_0);
-  });
+#pragma GCC ivdep
+  for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+    const double per_mass = mass[n] > empty ? 1.0 / mass[n] : 0.0;
+    v0[n] = p0[n] * per_mass;
+    v1[n] = p1[n] * per_mass;
+  }
+  if (grid.blocks()[block].constrained) impose(grid, block, Field::velocity_0);
+}
+
+void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>& gravity, double duration) {
+  const double* mass = grid.field(Field::mass);
+  const double *f0 = grid.field(Field::force_0), *f1 = grid.field(Field::force_1);
+  const double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
+  double *w0 = grid.field(Field::new_velocity_0), *w1 = grid.field(Field::new_velocity_1);
+  const double fall0 = duration * gravity[0], fall1 = duration * gravity[1];
+#pragma GCC ivdep
+  for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+    const bool filled = mass[n] > empty;
+    const double scale = filled ? duration / mass[n] : 0.0;
+    w0[n] = v0[n] + scale * f0[n] + (filled ? fall0 : 0.0);
+    w1[n] = v1[n] + scale * f1[n] + (filled ? fall1 : 0.0);
+  }
+  if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
+}
+
+void book_external_work(System& system, double duration) {
+  system.record.external_work += duration * external_power(system, Field::velocity_0, Field::new_velocity_0);
+}
+
+void project_velocities(System& system) {
+  system.team->for_each_chunk(system.grid.blocks().size(),
+                              [&](std::size_t block) { project_block(system.grid, block); });
 }
 
 void apply_forces(System& system, double duration) {
-  Grid& grid = system.grid;
-  const std::array<double, 2> gravity = system.gravity;
-  const double* mass = grid.field(Field::mass);
-  const std::array<const double*, 2> force{grid.field(Field::force_0), grid.field(Field::force_1)};
-  const std::array<const double*, 2> v{grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
-  const std::array<double*, 2> w{grid.field(Field::new_velocity_0), grid.field(Field::new_velocity_1)};
-  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
-    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
-      const bool filled = mass[n] > empty;
-      const double scale = filled ? duration / mass[n] : 0.0;
-      w[0][n] = v[0][n] + scale * force[0][n] + (filled ? duration * gravity[0] : 0.0);
-      w[1][n] = v[1][n] + scale * force[1][n] + (filled ? duration * gravity[1] : 0.0);
-    }
-    if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
+  system.team->for_each_chunk(system.grid.blocks().size(), [&](std::size_t block) {
+    accelerate_block(system.grid, block, system.gravity, duration);
   });
-
-  system.record.external_work += duration * external_power(system, Field::velocity_0, Field::new_velocity_0);
+  book_external_work(system, duration);
 }
 
 double accelerate(System& system) {

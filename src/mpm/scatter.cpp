@@ -1,98 +1,165 @@
-#include "mpm/tile.hpp"
+#include "mpm/nodes.hpp"
+#include "mpm/stencil.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
 namespace {
 
-// Slots of a tile.
-constexpr std::size_t mass_slot = 0, momentum_slot = 1, force_slot = 3;
+template <Scatter what>
+struct Plan {
+  static constexpr bool momentum = what != Scatter::force, force = what != Scatter::momentum;
+  static constexpr int width = momentum && force ? 4 : 2;
+};
 
-template <ShapeKind kind, bool axisymmetric, bool with_momentum, bool with_force>
+/// What a particle gives to a node, as vectors (momentum and / or force): share N + r h dN/dr + z h dN/dz.
+template <int width>
+struct Contribution {
+  Pack<width> share, r, z;
+};
+
+/// The columns that internal forces are made of.
+struct ForceColumns {
+  ColumnReader rr, zz, tt, rz, zr;
+
+  ForceColumns(const Chunk& chunk, const Particles& p)
+      : rr(chunk, p.stress[0]),
+        zz(chunk, p.stress[1]),
+        tt(chunk, p.stress[2]),
+        rz(chunk, p.stress[3]),
+        zr(chunk, p.stress_zr.empty() ? p.stress[3] : p.stress_zr) {}
+};
+
+template <bool axisymmetric, class P>
+class Contributions {
+ public:
+  /// The masses of the chunk's particles, and what they give to nodes.
+  void gather(const Chunk& chunk, const Body& body, double cell, const ColumnReader& radius) {
+    const Particles& p = body.particles;
+    const ColumnReader mass(chunk, p.mass), v0(chunk, p.velocity[0]), v1(chunk, p.velocity[1]);
+    const double per_cell = 1.0 / cell, specific_volume = 1.0 / body.material->parameters().elastic.density;
+    double* to = values_[0];
+    const std::size_t size = chunk.size();
+    const double* m = mass.data();
+    if constexpr (P::force) {
+      const ForceColumns f(chunk, p);
+      const double *rr = f.rr.data(), *zz = f.zz.data(), *tt = f.tt.data(), *rz = f.rz.data(),
+                   *zr = f.zr.data(), *r = radius.data();
+      constexpr std::size_t first = P::momentum ? 2 : 0, width = P::width;
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k) {
+        double* share = to + 3 * width * k + first;
+        const double volume = m[k] * specific_volume, pull = -volume * per_cell;
+        share[0] = axisymmetric ? -volume * tt[k] / hoop_radius(r[k], cell) : 0.0, share[1] = 0.0;
+        share[width] = pull * rr[k], share[width + 1] = pull * zr[k];
+        share[2 * width] = pull * rz[k], share[2 * width + 1] = pull * zz[k];
+      }
+    }
+    if constexpr (P::momentum) {
+      const double *from0 = v0.data(), *from1 = v1.data();
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k) {
+        mass_[k] = m[k];
+        to[3 * P::width * k] = m[k] * from0[k], to[3 * P::width * k + 1] = m[k] * from1[k];
+      }
+    }
+  }
+
+  double mass(std::size_t k) const {
+    return mass_[k];
+  }
+  const Contribution<P::width>& operator[](std::size_t k) const {
+    return *reinterpret_cast<const Contribution<P::width>*>(values_[k]);
+  }
+
+ private:
+  alignas(64) double mass_[Chunk::capacity];
+  alignas(64) double values_[Chunk::capacity][3 * P::width]{};  // momentum has no part in r and z: 0 stays
+};
+
+template <ShapeKind kind, bool axisymmetric, class P>
 void scatter_tile(System& system, std::size_t tile) {
-  using S = Shape1<kind>;
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
-  double* data = grid.tile_data(tile);
-  double *mass = data + mass_slot * tile_nodes, *p0 = data + momentum_slot * tile_nodes,
-         *p1 = p0 + tile_nodes;
-  double *f0 = data + force_slot * tile_nodes, *f1 = f0 + tile_nodes;
-  if constexpr (with_momentum) std::fill(mass, mass + 3 * tile_nodes, 0.0);
-  if constexpr (with_force) std::fill(f0, f0 + 2 * tile_nodes, 0.0);
+  TileData& data = grid.tile_data(tile);
+  Pack<P::width>* vectors = data.template packs<P::width>();
+  double* masses = data.mass;
+  std::fill(vectors, vectors + tile_nodes, Pack<P::width>{});
+  if constexpr (P::momentum) std::fill(masses, masses + tile_nodes, 0.0);
 
   const double per_cell = 1.0 / grid.cell();
+  Contributions<axisymmetric, P> gives;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
-    const auto [begin, end] = grid.particles(tile, n);
-    if (begin == end) continue;
     const Body& body = system.bodies[n];
-    const Particles& p = body.particles;
-    const double half = body.particle_half_size * per_cell;
-    const double* stress_zr = p.stress_zr.empty() ? p.stress[3].data() : p.stress_zr.data();
-    const double specific_volume = 1.0 / body.material->parameters().elastic.density;
-    for (const std::uint32_t* k = begin; k != end; ++k) {
-      const std::size_t i = *k;
-      const double r = p.position[0][i];
-      const auto wr = S::at(r * per_cell, half), wz = S::at(p.position[1][i] * per_cell, half);
-      const std::size_t entry = tile_entry(block, wr, wz);
-      const double m = p.mass[i], mv0 = m * p.velocity[0][i], mv1 = m * p.velocity[1][i];
-      double rr = 0.0, zz = 0.0, rz = 0.0, zr = 0.0, hoop = 0.0;
-      if constexpr (with_force) {
-        const double volume = m * specific_volume;
-        rr = -volume * p.stress[0][i] * per_cell, zz = -volume * p.stress[1][i] * per_cell;
-        rz = -volume * p.stress[3][i] * per_cell, zr = -volume * stress_zr[i] * per_cell;
-        if constexpr (axisymmetric) hoop = -volume * p.stress[2][i] / hoop_radius(r, grid.cell());
+    for_chunks(grid, tile, n, [&](const Chunk& chunk) {
+      const ColumnReader r(chunk, body.particles.position[0]), z(chunk, body.particles.position[1]);
+      const Stencils<kind> at(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      gives.gather(chunk, body, grid.cell(), r);
+      for (std::size_t k = 0; k < chunk.size(); ++k) {
+        const Contribution<P::width>& c = gives[k];
+        for (std::size_t b = 0; b < at.count; ++b)
+          for (std::size_t a = 0; a < at.count; ++a) {
+            const std::size_t node = at.entry(k) + b * tile_columns + a;
+            const double N = at.value(0, a, k) * at.value(1, b, k);
+            Pack<P::width> sum = vectors[node] + N * c.share;
+            if constexpr (P::force) {
+              sum += at.slope(0, a, k) * at.value(1, b, k) * c.r;
+              sum += at.value(0, a, k) * at.slope(1, b, k) * c.z;
+            }
+            vectors[node] = sum;
+            if constexpr (P::momentum) masses[node] += N * gives.mass(k);
+          }
       }
-      for (std::size_t b = 0; b < S::count; ++b)
-        for (std::size_t a = 0; a < S::count; ++a) {
-          const std::size_t node = entry + b * tile_columns + a;
-          const double N = wr.value[a] * wz.value[b];
-          if constexpr (with_momentum) {
-            mass[node] += N * m;
-            p0[node] += N * mv0;
-            p1[node] += N * mv1;
-          }
-          if constexpr (with_force) {
-            const double Nr = wr.slope[a] * wz.value[b], Nz = wr.value[a] * wz.slope[b];
-            f0[node] += rr * Nr + rz * Nz + hoop * N;
-            f1[node] += zr * Nr + zz * Nz;
-          }
-        }
-    }
+    });
   }
   if constexpr (axisymmetric && kind != ShapeKind::linear) {
     if (block.column == 0) {
-      if constexpr (with_momentum) fold_axis(mass, 1.0), fold_axis(p0, -1.0), fold_axis(p1, 1.0);
-      if constexpr (with_force) fold_axis(f0, -1.0), fold_axis(f1, 1.0);
+      fold_axis(vectors, axis_parity<P::width>);
+      if constexpr (P::momentum) fold_axis(masses, 1.0);
     }
   }
 }
 
-template <bool with_momentum, bool with_force>
-void scatter_all(System& system) {
+/// Adds up what the tiles hold for the nodes of a block.
+template <class P>
+void sum_block(Grid& grid, std::size_t index) {
+  Pack<P::width> vectors[block_nodes]{};
+  double mass[block_nodes]{};
+  for_shares(grid, grid.blocks()[index], [&](const TileData& tile, std::size_t entry, std::size_t node) {
+    vectors[node] += tile.template packs<P::width>()[entry];
+    if constexpr (P::momentum) mass[node] += tile.mass[entry];
+  });
+  const std::size_t first = index * block_nodes;
+  if constexpr (P::momentum) std::copy(mass, mass + block_nodes, grid.field(Field::mass) + first);
+  const Field fields[] = {P::momentum ? Field::momentum_0 : Field::force_0, Field::force_0};
+  for (int vector = 0; vector < P::width / 2; ++vector)
+    for (int c = 0; c < 2; ++c) {
+      double* field = grid.field(static_cast<Field>(static_cast<int>(fields[vector]) + c)) + first;
+      for (int node = 0; node < block_nodes; ++node) field[node] = vectors[node][2 * vector + c];
+    }
+}
+
+template <Scatter what>
+void scatter_all(System& system, Nodes until, double duration) {
+  using P = Plan<what>;
   Grid& grid = system.grid;
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
-    system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      scatter_tile<kind, axisymmetric, with_momentum, with_force>(system, tile);
-    });
+    system.team->for_each_chunk(grid.tiles().size(),
+                                [&](std::size_t tile) { scatter_tile<kind, axisymmetric, P>(system, tile); });
   });
-  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t n) {
-    const Block& b = grid.blocks()[n];
-    if constexpr (with_momentum) {
-      reduce_tiles(grid, b, n, mass_slot, Field::mass);
-      reduce_tiles(grid, b, n, momentum_slot, Field::momentum_0);
-      reduce_tiles(grid, b, n, momentum_slot + 1, Field::momentum_1);
-    }
-    if constexpr (with_force) {
-      reduce_tiles(grid, b, n, force_slot, Field::force_0);
-      reduce_tiles(grid, b, n, force_slot + 1, Field::force_1);
-    }
+  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
+    sum_block<P>(grid, block);
+    if (P::momentum && until != Nodes::sums) project_block(grid, block);
+    if (until == Nodes::new_velocities) accelerate_block(grid, block, system.gravity, duration);
   });
+  if (until == Nodes::new_velocities) book_external_work(system, duration);
 }
 
 }  // namespace
 
-void refresh_grid(System& system) {
+void refresh_grid(System& system, Storage storage) {
   if (!system.grid_is_stale) return;
   system.grid.rebuild(system.bodies);
+  if (storage == Storage::sorted) system.grid.sort_storage(system.bodies);
   system.grid_is_stale = false;
 }
 
@@ -110,14 +177,14 @@ void refresh_grid_for_positions(System& system) {
   refresh_grid(system);
 }
 
-void scatter(System& system, Scatter what) {
+void scatter(System& system, Scatter what, Nodes until, double duration) {
   switch (what) {
     case Scatter::momentum:
-      return scatter_all<true, false>(system);
+      return scatter_all<Scatter::momentum>(system, until, duration);
     case Scatter::force:
-      return scatter_all<false, true>(system);
+      return scatter_all<Scatter::force>(system, until, duration);
     case Scatter::momentum_and_force:
-      return scatter_all<true, true>(system);
+      return scatter_all<Scatter::momentum_and_force>(system, until, duration);
   }
 }
 

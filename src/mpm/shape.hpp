@@ -1,21 +1,23 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace vitrum::mpm {
 
 enum class ShapeKind { linear, gimp, bspline2 };
 
-/// Largest integer not above x. (std::floor is a library call on processors without SSE 4.1.)
-inline long long cell_of(double x) {
-  const auto truncated = static_cast<long long>(x);
-  return truncated - static_cast<long long>(x < static_cast<double>(truncated));
+/// Largest integer not above x, |x| < 2^31. (std::floor is a library call on processors without SSE 4.1, and
+/// 64-bit integers are not converted four at a time.)
+inline std::int32_t cell_of(double x) {
+  const auto truncated = static_cast<std::int32_t>(x);
+  return truncated - static_cast<std::int32_t>(x < static_cast<double>(truncated));
 }
 
 /// One-dimensional shape function values of one particle: nodes first .. first + count - 1.
 template <int count>
 struct Weights1 {
-  long long first;
+  std::int32_t first;
   std::array<double, count> value;  ///< N
   std::array<double, count> slope;  ///< h dN/dx
 };
@@ -34,7 +36,7 @@ struct Shape1<ShapeKind::linear> {
   /// none).
   static constexpr double nearest = 1e-15;
   static Weights1<2> at(double x, double /*half*/) {
-    const long long cell = cell_of(x);
+    const std::int32_t cell = cell_of(x);
     const double s = std::clamp(x - static_cast<double>(cell), nearest, 1.0 - nearest);
     return {cell, {1.0 - s, s}, {-1.0, 1.0}};
   }
@@ -45,7 +47,7 @@ template <>
 struct Shape1<ShapeKind::bspline2> {
   static constexpr int count = 3;
   static Weights1<3> at(double x, double /*half*/) {
-    const long long first = cell_of(x - 0.5);
+    const std::int32_t first = cell_of(x - 0.5);
     const double s = x - static_cast<double>(first) - 1.0;  // in [-0.5, 0.5) about the middle node
     return {first,
             {0.5 * (0.5 - s) * (0.5 - s), 0.75 - s * s, 0.5 * (0.5 + s) * (0.5 + s)},
@@ -58,7 +60,7 @@ template <>
 struct Shape1<ShapeKind::gimp> {
   static constexpr int count = 3;
   static Weights1<3> at(double x, double half) {
-    const long long first = cell_of(x - half);
+    const std::int32_t first = cell_of(x - half);
     const double width = 0.5 / half;
     Weights1<3> w{first, {}, {}};
     for (int k = 0; k < 3; ++k) {

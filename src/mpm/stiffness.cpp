@@ -37,8 +37,8 @@ void for_stencils(const System& system, F&& f) {
     for (std::size_t n = 0; n < system.bodies.size(); ++n) {
       const Body& body = system.bodies[n];
       const double half = body.particle_half_size * per_cell;
-      const auto [begin, end] = grid.particles(tile, n);
-      for (const std::uint32_t* k = begin; k != end; ++k) {
+      const Grid::Range range = grid.particles(tile, n);
+      for (const std::uint32_t* k = range.begin; k != range.end; ++k) {
         const auto wr = S::at(body.particles.position[0][*k] * per_cell, half),
                    wz = S::at(body.particles.position[1][*k] * per_cell, half);
         std::size_t count = 0;

@@ -8,6 +8,20 @@
 #include "mpm/computation_error.hpp"
 
 namespace vitrum::mpm {
+namespace {
+
+/// Waits until `value` is no longer `old`. First awake, for about as long as a pass over a small scene takes:
+/// the kernel needs longer than that to wake a thread.
+template <class T>
+T wait_for_change(const std::atomic<T>& value, T old) {
+  constexpr int looks = 20000;  // about 10 us
+  for (int i = 0; i < looks; ++i)
+    if (const T now = value.load(std::memory_order_acquire); now != old) return now;
+  value.wait(old);
+  return value.load();
+}
+
+}  // namespace
 
 ThreadTeam::ThreadTeam(int threads) {
   try {
@@ -46,8 +60,7 @@ void ThreadTeam::take_chunks() {
 void ThreadTeam::work() {
   unsigned seen = 0;
   while (true) {
-    generation_.wait(seen);
-    seen = generation_.load();
+    seen = wait_for_change(generation_, seen);
     if (stop_) return;
     take_chunks();
     if (busy_.fetch_sub(1) == 1) busy_.notify_all();
@@ -63,7 +76,7 @@ void ThreadTeam::run(std::size_t chunks, Call call, void* context) {
   ++generation_;
   generation_.notify_all();
   take_chunks();
-  for (std::size_t left = busy_.load(); left != 0; left = busy_.load()) busy_.wait(left);
+  for (std::size_t left = busy_.load(); left != 0;) left = wait_for_change(busy_, left);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

@@ -28,67 +28,69 @@ inline std::int32_t neighbour(const Block& b, int di, int dj) {
   return b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
 }
 
-/// Copies a nodal field into the tile of block `b` (absent blocks: zero).
-inline void load_tile(const Block& b, const double* field, double* tile) {
+/// Fills a tile of block `b`: calls to(entry, from(node)), or to(entry, 0.0) where there is no node.
+template <class From, class To>
+inline void load_tile(const Block& b, From&& from, To&& to) {
   for_neighbourhood([&]<int di, int dj>() {
     using I = Overlap<di>;
     using J = Overlap<dj>;
     const std::int32_t n = neighbour(b, di, dj);
-    double* to = tile + J::entry * tile_columns + I::entry;
-    if (n < 0) {
-      for (int row = 0; row < J::count; ++row)
-        for (int column = 0; column < I::count; ++column) to[row * tile_columns + column] = 0.0;
-      return;
-    }
-    const double* from = field + static_cast<std::size_t>(n) * block_nodes + J::node * block_side + I::node;
-    for (int row = 0; row < J::count; ++row)
-      for (int column = 0; column < I::count; ++column)
-        to[row * tile_columns + column] = from[row * block_side + column];
+    const std::size_t node =
+        static_cast<std::size_t>(n < 0 ? 0 : n) * block_nodes + J::node * block_side + I::node;
+    for (std::size_t row = 0; row < J::count; ++row)
+      for (std::size_t column = 0; column < I::count; ++column) {
+        const std::size_t entry = (J::entry + row) * tile_columns + I::entry + column;
+        if (n < 0)
+          to(entry, 0.0);
+        else
+          to(entry, from(node + row * block_side + column));
+      }
   });
 }
 
-/// Adds up what all tiles hold for the nodes of block `b`. slot: which of a tile's five fields.
-inline void reduce_tiles(Grid& grid, const Block& b, std::size_t block, std::size_t slot, Field field) {
-  double* nodes = grid.field(field) + block * block_nodes;
-  std::fill(nodes, nodes + block_nodes, 0.0);
+/// Calls add(tile, entry, node) for every node (0 .. block_nodes - 1) of block `b` and every tile that holds
+/// a share of it, in a fixed order.
+template <class Add>
+inline void for_shares(Grid& grid, const Block& b, Add&& add) {
   for_neighbourhood([&]<int di, int dj>() {
     using I = Overlap<-di>;  // seen from the neighbour, this block lies at (-di, -dj)
     using J = Overlap<-dj>;
     const std::int32_t n = neighbour(b, di, dj);
     if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) return;
-    const double* from =
-        grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile)) +
-        slot * tile_nodes + J::entry * tile_columns + I::entry;
-    double* to = nodes + J::node * block_side + I::node;
-    for (int row = 0; row < J::count; ++row)
-      for (int column = 0; column < I::count; ++column)
-        to[row * block_side + column] += from[row * tile_columns + column];
+    const TileData& tile =
+        grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile));
+    for (std::size_t row = 0; row < J::count; ++row)
+      for (std::size_t column = 0; column < I::count; ++column)
+        add(tile, (J::entry + row) * tile_columns + I::entry + column,
+            (J::node + row) * block_side + I::node + column);
   });
 }
 
+/// Signs that the components of a node's vectors change with under reflection at the axis.
+template <int width>
+inline constexpr Pack<width> axis_parity{};
+template <>
+inline constexpr Pack<2> axis_parity<2>{-1.0, 1.0};
+template <>
+inline constexpr Pack<4> axis_parity<4>{-1.0, 1.0, -1.0, 1.0};
+
 /// The axis is a plane of symmetry: the image of a particle at -r touches node +1 as the particle touches
-/// node -1, with the opposite radial component. Folds column -1 of a summed tile onto column +1. parity: +1
-/// or -1.
-inline void fold_axis(double* tile, double parity) {
+/// node -1, with the opposite radial component. Folds column -1 of a summed tile onto column +1.
+template <class Value>
+inline void fold_axis(Value* tile, const Value& parity) {
   for (int row = 0; row < tile_rows; ++row) {
-    double* r = tile + row * tile_columns;
+    Value* r = tile + row * tile_columns;
     r[2] += parity * r[0];
-    r[0] = 0.0;
+    r[0] = Value{};
   }
 }
 /// Fills column -1 of a tile to be read from.
-inline void mirror_axis(double* tile, double parity) {
+template <class Value>
+inline void mirror_axis(Value* tile, const Value& parity) {
   for (int row = 0; row < tile_rows; ++row) {
-    double* r = tile + row * tile_columns;
+    Value* r = tile + row * tile_columns;
     r[0] = parity * r[2];
   }
-}
-
-/// Tile entry of a particle's first node.
-template <class W>
-inline std::size_t tile_entry(const Block& b, const W& r, const W& z) {
-  return static_cast<std::size_t>((z.first - std::int64_t{b.row} * block_side + 1) * tile_columns +
-                                  (r.first - std::int64_t{b.column} * block_side + 1));
 }
 
 /// Radius used in the hoop terms: never 0 (there N v_r / r has its limit as r -> 0).

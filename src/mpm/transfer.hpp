@@ -9,8 +9,10 @@
 /// combined in geometric order.
 namespace vitrum::mpm {
 
+/// Whether particles may change their places in memory: not while an integrator holds arrays of its own.
+enum class Storage { kept, sorted };
 /// Sorts the particles into blocks anew when some particle has left the cells its block was made for.
-void refresh_grid(System& system);
+void refresh_grid(System& system, Storage storage = Storage::kept);
 /// The same for positions that no operator has moved (those of a trial).
 void refresh_grid_for_positions(System& system);
 
@@ -18,7 +20,9 @@ enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
 /// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
 /// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
-void scatter(System& system, Scatter what);
+/// until, duration: how far the nodes are taken in the same pass, as by project_velocities and apply_forces.
+enum class Nodes { sums, velocities, new_velocities };
+void scatter(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 
 /// Nodal velocities from mass and momentum; held components get their prescribed values.
 void project_velocities(System& system);
@@ -39,10 +43,12 @@ enum class Gather {
   position,                ///< x += dt N new
   velocity_and_position,   ///< v += N (new - old), x += dt N new
   all_from_new,            ///< the two together, strain from `new_velocity` (USL)
-  velocity_and_rescatter,  ///< v += N (new - old), and the new momenta back to the nodes (MUSL)
+  velocity_and_rescatter,  ///< v += N (new - old), nodal `velocity` from the particles' new momenta (MUSL)
   strain_and_position,     ///< strain from `velocity`, x += dt N `new_velocity` (MUSL)
 };
 void gather(System& system, Gather what, double duration);
+/// A pass that gathers strains, followed by update_stress, particle by particle while their data is at hand.
+void gather_and_update_stress(System& system, Gather what, double duration);
 
 /// Where the rates of one body's particles go: arrays of one entry a particle.
 struct ParticleRates {

@@ -1,6 +1,9 @@
 #pragma once
 #include <cmath>
 
+/// For the few functions that loops over particles are made of: a loop with a call in it is not vectorised.
+#define VITRUM_INLINE [[gnu::always_inline]] inline
+
 namespace vitrum {
 
 /// Symmetric second-order tensor with one symmetry plane: components (rr, zz, tt, rz) in the axisymmetric
@@ -30,15 +33,15 @@ struct SymmetricTensor {
 constexpr SymmetricTensor identity() {
   return {1.0, 1.0, 1.0, 0.0};
 }
-constexpr double trace(const SymmetricTensor& a) {
+VITRUM_INLINE constexpr double trace(const SymmetricTensor& a) {
   return a.rr + a.zz + a.tt;
 }
-constexpr SymmetricTensor deviator(const SymmetricTensor& a) {
-  const double mean = trace(a) / 3.0;
+VITRUM_INLINE constexpr SymmetricTensor deviator(const SymmetricTensor& a) {
+  const double mean = (1.0 / 3.0) * trace(a);
   return {a.rr - mean, a.zz - mean, a.tt - mean, a.rz};
 }
 /// a : b
-constexpr double contract(const SymmetricTensor& a, const SymmetricTensor& b) {
+VITRUM_INLINE constexpr double contract(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2.0 * a.rz * b.rz;
 }
 inline double norm(const SymmetricTensor& a) {
@@ -50,16 +53,23 @@ struct Rotation {
   double cosine = 1.0, sine = 0.0;
 };
 
-/// Rotation by `angle` (rad). Series for the small angles of a time step: exact to rounding below 0.05 rad.
-inline Rotation rotation_by(double angle) {
-  if (std::abs(angle) > 0.05) return {std::cos(angle), std::sin(angle)};
+/// Rotation by an angle (rad) of the size that a time step makes: a series, exact to rounding up to
+/// small_angle.
+inline constexpr double small_angle = 0.05;
+VITRUM_INLINE constexpr Rotation rotation_by_small(double angle) {
   const double a = angle * angle;
-  return {1.0 - a / 2.0 * (1.0 - a / 12.0 * (1.0 - a / 30.0 * (1.0 - a / 56.0))),
-          angle * (1.0 - a / 6.0 * (1.0 - a / 20.0 * (1.0 - a / 42.0 * (1.0 - a / 72.0))))};
+  return {1.0 - a * (1.0 / 2.0 - a * (1.0 / 24.0 - a * (1.0 / 720.0 - a * (1.0 / 40320.0)))),
+          angle * (1.0 - a * (1.0 / 6.0 - a * (1.0 / 120.0 - a * (1.0 / 5040.0 - a * (1.0 / 362880.0)))))};
+}
+
+/// Rotation by `angle` (rad).
+inline Rotation rotation_by(double angle) {
+  if (std::abs(angle) > small_angle) return {std::cos(angle), std::sin(angle)};
+  return rotation_by_small(angle);
 }
 
 /// R a R^T
-constexpr SymmetricTensor rotate(const SymmetricTensor& a, const Rotation& R) {
+VITRUM_INLINE constexpr SymmetricTensor rotate(const SymmetricTensor& a, const Rotation& R) {
   const double c = R.cosine, s = R.sine, cc = c * c, ss = s * s, cs = c * s;
   return {cc * a.rr + ss * a.zz - 2.0 * cs * a.rz, ss * a.rr + cc * a.zz + 2.0 * cs * a.rz, a.tt,
           cs * (a.rr - a.zz) + (cc - ss) * a.rz};

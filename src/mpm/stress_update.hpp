@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "mpm/chunk.hpp"
+#include "mpm/system.hpp"
+
+namespace vitrum::mpm {
+
+/// Takes particles over their strain increments tile by tile. What the tiles did is booked in their order, so
+/// that the record does not depend on how particles are stored or on threads.
+class StressUpdate {
+ public:
+  StressUpdate(System& system, double duration);
+
+  /// A chunk of a body in a tile. Called from several threads, for different tiles.
+  void take(std::size_t tile, std::size_t body, const Chunk& chunk);
+  /// Fills the energies and events of system.record. Throws PointFailure.
+  void book();
+
+ private:
+  System& system_;
+  double duration_;
+  std::vector<ParticleColumns> columns_;  // by body
+  std::vector<BatchReport>& reports_;     // by tile and body
+};
+
+}  // namespace vitrum::mpm

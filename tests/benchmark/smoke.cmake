@@ -1,0 +1,18 @@
+# Runs every benchmark that ends soon for as short as the library allows, and fails when one reports an error.
+execute_process(COMMAND ${PROGRAM} --benchmark_min_time=1e-9 "--benchmark_filter=-(thousand:500|large_plate)" --benchmark_format=json
+                OUTPUT_VARIABLE output ERROR_VARIABLE log RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "the benchmarks ended with ${status}:\n${log}")
+endif()
+string(JSON count LENGTH "${output}" benchmarks)
+if(count LESS 40)
+  message(FATAL_ERROR "only ${count} benchmarks ran")
+endif()
+math(EXPR last "${count} - 1")
+foreach(i RANGE ${last})
+  string(JSON error ERROR_VARIABLE none GET "${output}" benchmarks ${i} error_message)
+  if(NOT none)
+    string(JSON name GET "${output}" benchmarks ${i} name)
+    message(SEND_ERROR "${name}: ${error}")
+  endif()
+endforeach()

@@ -1,0 +1,123 @@
+// Steps of the momentum equations and the right-hand sides and linear algebra behind the adaptive ones.
+#include <benchmark/benchmark.h>
+
+#include "benchmark/running_scene.hpp"
+#include "integrators/grid/grid_system.hpp"
+#include "integrators/grid/particle_system.hpp"
+#include "integrators/sundials/reduced_solver.hpp"
+
+namespace vitrum::benchmarks {
+namespace {
+
+const char* const schemes[] = {"usf", "usl", "musl"};
+
+void count_particles(benchmark::State& state, const System& system) {
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(system.particle_count()));
+}
+
+/// The bar with 20,480 particles. items: particle-steps.
+void explicit_step(benchmark::State& state) {
+  const char* scheme = schemes[state.range(0)];
+  state.SetLabel(scheme);
+  const Scene scene = bar(20, {std::string("integrator.scheme=\"") + scheme + "\""});
+  RunningScene run(scene);
+  run.advance(2, scene.end);
+  for ([[maybe_unused]] auto _ : state) run.advance(1, scene.end);
+  count_particles(state, run.system);
+}
+BENCHMARK(explicit_step)->ArgName("scheme")->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
+
+/// The particle system's right-hand side for the same bar: to be compared with an explicit step.
+void arkode_explicit_rhs(benchmark::State& state) {
+  const Scene scene = bar(20);
+  RunningScene run(scene);
+  run.advance(2, scene.end);
+  ParticleSystem particles(run.system, error_scales(run.system, {}), 1e-3, 1.0);
+  std::vector<double> y(particles.size()), rates(particles.size());
+  particles.begin(y.data());
+  double t = run.system.time;
+  const double step = 1e-9;
+  bool finite = particles.rates(t, y.data(), rates.data());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    y[i] += step * rates[i];  // off the committed state: stress is computed
+  t += step;
+  for ([[maybe_unused]] auto _ : state) finite = finite && particles.rates(t, y.data(), rates.data());
+  if (!finite) state.SkipWithError("a rate is not finite");
+  count_particles(state, run.system);
+}
+BENCHMARK(arkode_explicit_rhs)->Unit(benchmark::kMicrosecond);
+
+/// The grid system's parts in the order of an implicit step, for a bar of 1,280 or 20,480 particles.
+struct ImplicitParts {
+  explicit ImplicitParts(long thousands)
+      : scene(bar(thousands)), run(scene), grid(run.system, error_scales(run.system, {}), 1e-3) {
+    grid.begin_phase();
+    y.resize(grid.size()), rates.resize(grid.size());
+    grid.start(y.data());
+    solver = std::make_unique<sundials::ReducedSolver>(context, grid, sundials::ReducedSolver::Kind::factor);
+    t = run.system.time + 1e-12;
+    gamma = 10.0 * *scene.integrator.step;  // ten times the explicit step
+    grid.rates(t, y.data(), rates.data());
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += 1e-9 * rates[i];
+    solver->form(t, y.data(), gamma, false);
+    solver->factor();
+  }
+  Scene scene;
+  RunningScene run;
+  GridSystem grid;
+  sundials::Context context;
+  std::unique_ptr<sundials::ReducedSolver> solver;
+  std::vector<double> y, rates;
+  double t = 0.0, gamma = 0.0;
+};
+
+template <class Part>
+void time_part(benchmark::State& state, Part&& part) {
+  ImplicitParts parts(state.range(0));
+  for ([[maybe_unused]] auto _ : state) part(parts);
+  state.counters["unknowns"] = static_cast<double>(parts.grid.pattern().size());
+  count_particles(state, parts.run.system);
+}
+void arkode_implicit_rhs(benchmark::State& state) {
+  time_part(state, [](ImplicitParts& p) { p.grid.rates(p.t, p.y.data(), p.rates.data()); });
+}
+void implicit_linearise(benchmark::State& state) {
+  time_part(state, [](ImplicitParts& p) { p.solver->form(p.t, p.y.data(), p.gamma, false); });
+}
+void klu_factor(benchmark::State& state) {
+  time_part(state, [](ImplicitParts& p) { p.solver->factor(); });
+}
+void klu_solve(benchmark::State& state) {
+  std::vector<double> x;
+  time_part(state, [&](ImplicitParts& p) {
+    x.resize(p.grid.size());
+    p.solver->solve(p.rates.data(), x.data());
+  });
+}
+BENCHMARK(arkode_implicit_rhs)->ArgName("thousand")->Arg(1)->Arg(20)->Unit(benchmark::kMicrosecond);
+BENCHMARK(implicit_linearise)->ArgName("thousand")->Arg(1)->Arg(20)->Unit(benchmark::kMicrosecond);
+BENCHMARK(klu_factor)->ArgName("thousand")->Arg(1)->Arg(20)->Unit(benchmark::kMicrosecond);
+BENCHMARK(klu_solve)->ArgName("thousand")->Arg(1)->Arg(20)->Unit(benchmark::kMicrosecond);
+
+/// Whole implicit steps of the small bar, for the share of the parts.
+void arkode_implicit_step(benchmark::State& state) {
+  const Scene scene = bar(1, {"integrator.method=\"arkode-implicit\""});
+  RunningScene run(scene);
+  const double target = 1e-3;
+  run.advance(3, target);
+  const std::int64_t factorised = run.integrator->state().counters.factorisations,
+                     evaluated = run.integrator->state().counters.rhs_evaluations,
+                     begun = run.integrator->state().counters.steps;
+  for ([[maybe_unused]] auto _ : state) run.advance(1, target);
+  const IntegratorCounters& c = run.integrator->state().counters;
+  const auto per_step = [&](std::int64_t now, std::int64_t then) {
+    return static_cast<double>(now - then) / static_cast<double>(c.steps - begun);
+  };
+  state.counters["factorisations"] = per_step(c.factorisations, factorised);
+  state.counters["rhs"] = per_step(c.rhs_evaluations, evaluated);
+  count_particles(state, run.system);
+}
+BENCHMARK(arkode_implicit_step)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace vitrum::benchmarks
