@@ -1,0 +1,171 @@
+"""The paper's checkable sentences, each with a measure and what would count as the same."""
+from collections.abc import Callable
+from dataclasses import dataclass
+
+us, mm = 1e-6, 1e-3
+# Speed of longitudinal waves in a thin plate of the paper's glass, m/s; pressure waves take 5,879.
+plate_wave = (72e9 / (2500.0 * (1.0 - 0.25**2))) ** 0.5
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """`measure(histories)` takes the runs of one treatment by (radius, speed) and returns (what was found, whether it is
+    as the text says); None for the latter: the run did not come so far."""
+    key: str
+    case: str
+    text: str
+    criterion: str
+    needs: tuple
+    until: float  # s
+    measure: Callable
+
+
+def _time(value):
+    return "never" if value is None else f"{value / us:.3g} µs".replace("-", "\u2212")
+
+
+def _first_severe(case, low, high, earliest, latest):
+    def measure(runs):
+        found = runs[case].first_severe(low * mm, high * mm)
+        return _time(found), found is not None and earliest * us <= found <= latest * us
+    return measure
+
+
+def _unbroken(case, time):
+    def measure(runs):
+        count = runs[case].count(time * us)
+        return f"{count} separated", count == 0
+    return measure
+
+
+def _first_decohesion(case, earliest, latest):
+    def measure(runs):
+        found = runs[case].first_decohesion
+        return _time(found), found is not None and earliest * us <= found <= latest * us
+    return measure
+
+
+def _slower_than_wave(runs):
+    run = runs[200, 200]
+    speed = run.front_speed(run.damage_front, 30 * us)
+    return f"{speed:.0f} m/s", 0.0 < speed < plate_wave
+
+
+def _damage_leads(runs):
+    run = runs[200, 200]
+    behind = float((run.separation_front - run.damage_front).max())
+    return f"separation ahead by {max(behind, 0.0) / mm:.0f} mm at most", behind <= 0.0
+
+
+def _largest_opening(runs):
+    found = runs[200, 200].largest_opening_radius
+    return "none" if found is None else f"{found / mm:.3g} mm", found is not None and 20 * mm <= found <= 30 * mm
+
+
+def _perforation(runs):
+    found = runs[200, 800].outcome.summary["failure"]["perforated"]
+    return {True: "perforated", False: "not perforated", None: "undecided"}[found], found is True
+
+
+def _front_ratio(one, other, time, least, front="damage_front"):
+    """How much farther the front of `one` has come than that of `other`."""
+    def measure(runs):
+        a, b = (runs[case].front_speed(getattr(runs[case], front), time * us) for case in (one, other))
+        if b == 0.0:
+            return f"{a:.0f} against 0 m/s", a > 0.0 and least > 1.0
+        return f"× {a / b:.2f}", a / b > least if least >= 1.0 else a / b < least
+    return measure
+
+
+def _faster_with_speed(runs):
+    ratios = []
+    for radius in (200, 400, 800):
+        speeds = [runs[radius, v].front_speed(runs[radius, v].damage_front, 100 * us) for v in (200, 400, 800)]
+        ratios.append(speeds)
+    rising = all(a < b < c for a, b, c in ratios)
+    return "; ".join("/".join(f"{speed:.0f}" for speed in speeds) for speeds in ratios) + " m/s", rising
+
+
+def _faster_with_size(runs):
+    rows = [[runs[r, v].front_speed(runs[r, v].damage_front, 100 * us) for r in (200, 400, 800)] for v in (200, 400, 800)]
+    rising = all(a <= b <= c and a < c for a, b, c in rows)
+    return "; ".join("/".join(f"{speed:.0f}" for speed in speeds) for speeds in rows) + " m/s", rising
+
+
+nine = tuple((r, v) for r in (200, 400, 800) for v in (200, 400, 800))
+sentences = [
+    Sentence("S1", "R 200, v 200", "no fragmentation occurs at time t = 50 µs", "no plate particle beyond the cylinder's radius has separated at 50 µs",
+             ((200, 200),), 50 * us, _unbroken((200, 200), 50)),
+    Sentence("S2", "R 200, v 200", "The first decohesion occurs around time t = 70 µs", "first localisation of the plate between 50 and 90 µs",
+             ((200, 200),), 90 * us, _first_decohesion((200, 200), 50, 90)),
+    Sentence("S3", "R 200, v 200", "Severe fragmentations first appear at the position about 30 mm … around time t = 100 µs",
+             "a ring between 20 and 40 mm becomes severe between 75 and 125 µs", ((200, 200),), 125 * us, _first_severe((200, 200), 20, 40, 75, 125)),
+    Sentence("S4", "R 200, v 200", "severe glass fragmentation near the end at time t = 150 µs", "a ring in the outer 20 mm becomes severe up to 160 µs",
+             ((200, 200),), 160 * us, _first_severe((200, 200), 180, 200, 0, 160)),
+    Sentence("S5", "R 200, v 200", "the glass breaks at the distance 100 mm", "a ring between 90 and 110 mm becomes severe up to 250 µs",
+             ((200, 200),), 250 * us, _first_severe((200, 200), 90, 110, 0, 250)),
+    Sentence("S6", "R 200, v 200", "the damage front travels at a velocity which is lower than that of stress wave",
+             f"the front's mean speed up to 30 µs is below {plate_wave:.0f} m/s, but not zero", ((200, 200),), 30 * us, _slower_than_wave),
+    Sentence("S7", "R 200, v 200", "the damage front is ahead of the fragmentation front", "at no output is separation farther out than D > 0.1",
+             ((200, 200),), 150 * us, _damage_leads),
+    Sentence("S8", "R 200, v 200", "the largest decohesion is located about 25 mm away", "the ring with the largest median opening lies at 20 to 30 mm",
+             ((200, 200),), 150 * us, _largest_opening),
+    Sentence("S9", "R 200, v 800", "the steel cylinder easily penetrates the glass plate", "perforated at the end", ((200, 800),), 50 * us, _perforation),
+    Sentence("S10", "R 200, v 800", "The glass decohesion occurs right after impact", "first localisation of the plate before 5 µs",
+             ((200, 800),), 5 * us, _first_decohesion((200, 800), -10, 5)),
+    Sentence("S11", "R 200, v 800", "severe fragmentations occur at the position 50 mm", "a ring between 40 and 60 mm becomes severe up to 250 µs",
+             ((200, 800),), 250 * us, _first_severe((200, 800), 40, 60, -10, 250)),
+    Sentence("S12", "R 200, v 800", "the glass breaks near the end due to the reflected stress wave", "a ring in the outer 20 mm becomes severe up to 250 µs",
+             ((200, 800),), 250 * us, _first_severe((200, 800), 180, 200, 0, 250)),
+    Sentence("S13", "R 200, v 800", "at a higher impact velocity, the damage propagates much faster", "by 100 µs the damage front has come farther than at 200 m/s by more than a fifth",
+             ((200, 200), (200, 800)), 50 * us, _front_ratio((200, 800), (200, 200), 100, 1.2)),
+    Sentence("S14", "R 200, v 800", "the propagation of the decohesion is slower", "by 100 µs the separation front has come less far than at 200 m/s",
+             ((200, 200), (200, 800)), 50 * us, _front_ratio((200, 800), (200, 200), 100, 0.9999, "separation_front")),
+    Sentence("S15", "R 400, v 200", "no fragmentation occurs at time t = 50 µs", "as S1", ((400, 200),), 50 * us, _unbroken((400, 200), 50)),
+    Sentence("S16", "R 400, v 200", "Severe fragmentations first appear at the place 50 mm … at time t = 100 µs",
+             "a ring between 40 and 60 mm becomes severe between 75 and 125 µs", ((400, 200),), 125 * us, _first_severe((400, 200), 40, 60, 75, 125)),
+    Sentence("S17", "R 400, v 200", "At time t = 250 µs, the reflected stress wave cause the break of glass near the fixed end",
+             "a ring in the outer 20 mm becomes severe up to 260 µs", ((400, 200),), 260 * us, _first_severe((400, 200), 380, 400, 0, 260)),
+    Sentence("S18", "R 400, v 200", "with a larger size glass plate, the damage propagates at a little bit higher velocity",
+             "by 100 µs the damage front has come farther than with R = 200 mm", ((200, 200), (400, 200)), 100 * us, _front_ratio((400, 200), (200, 200), 100, 1.0)),
+    Sentence("S19", "all nine", "the damage propagates faster when the impact velocity is higher", "mean speed of the front up to 100 µs rises with v for each R (200; 400; 800 mm)",
+             nine, 100 * us, _faster_with_speed),
+    Sentence("S20", "all nine", "… or the glass size is larger", "mean speed of the front up to 100 µs rises with R for each v (200; 400; 800 m/s)",
+             nine, 100 * us, _faster_with_size),
+]
+
+
+def judge(sentence, runs):
+    """(found, verdict) of one treatment. Verdict: "yes"; "no"; "blown up" where it is as the text says, but by then the
+    numerics have made more energy than the impact brought; "–" where a run is missing or ended too early."""
+    if any(case not in runs for case in sentence.needs):
+        return None, "–"
+    ended = min(runs[case].time[-1] for case in sentence.needs)
+    if ended < sentence.until - 1e-9:
+        return f"ended at {ended / us:.3g} µs", "–"
+    found, same = sentence.measure(runs)
+    if not same:
+        return found, "no"
+    return found, "blown up" if made_energy(sentence, runs) > 1.0 else "yes"
+
+
+def made_energy(sentence, runs):
+    """Energy that the numerics had made (positive) or lost by the time that the sentence speaks of, over the impact's; of
+    the worst run."""
+    return max((runs[case].made_energy(sentence.until) for case in sentence.needs), key=abs)
+
+
+def overall(verdicts):
+    """Of (resolved, verdict) pairs, one for each treatment."""
+    def of(kind):
+        return {verdict for is_resolved, verdict in verdicts if is_resolved is kind and verdict != "–"}
+
+    if not of(True):
+        return "undecided"
+    if of(True) == {"yes"}:
+        return "reproduced"
+    if "yes" in of(True):
+        return "depends on the integration"
+    if "yes" in of(False):
+        return "only with an unresolved step"
+    return "only after a blow-up" if "blown up" in of(False) else "not reproduced"
