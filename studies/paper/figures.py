@@ -61,7 +61,7 @@ def space_time(histories, title, folder, name):
     bar = figure.colorbar(mesh, ax=panels, shrink=0.8, pad=0.015)
     bar.set_label("separated share of each 5-mm ring")
     handles, texts = panels.flat[0].get_legend_handles_labels()
-    legend_below(figure, handles, texts, 2)
+    legend_below(figure, handles, texts)
     figure.suptitle(title, fontsize=10)
     save(figure, folder, name)
 

@@ -30,7 +30,7 @@ def limits(rows, folder, name):
     handles = [Line2D([], [], color=colours[n], marker=markers[n], markerfacecolor="none", label=f"{count} per cell") for n, count in enumerate(counts)]
     handles.append(Line2D([], [], color="black", linewidth=1.2, label="theory"))
     handles.append(Line2D([], [], color="black", marker="o", markerfacecolor="none", linestyle="", label="measured"))
-    legend_below(figure, handles, [handle.get_label() for handle in handles], 5)
+    legend_below(figure, handles)
     save(figure, folder, name)
 
 
@@ -61,7 +61,7 @@ def growth(rows, folder, name):
     handles = [Line2D([], [], color=colours[n], marker=markers[n], markerfacecolor="none", label=f"{speed:.0f} m/s") for n, speed in enumerate(speeds)]
     handles.append(Line2D([], [], color="black", label="theory"))
     handles.append(Line2D([], [], color="black", marker="o", markerfacecolor="none", linestyle="", label="measured"))
-    legend_below(figure, handles, [handle.get_label() for handle in handles], 5)
+    legend_below(figure, handles)
     save(figure, folder, name)
 
 

@@ -27,8 +27,11 @@ def save(figure, folder, name):
     plt.close(figure)
 
 
-def legend_below(figure, handles, texts, columns):
-    """One legend for all panels, in a strip below them."""
-    room = 0.27 * -(-len(handles) // columns) / figure.get_figheight()
+def legend_below(figure, handles, texts=None):
+    """One legend for all panels, in a strip below them, of as many columns as there is room for."""
+    texts = texts or [handle.get_label() for handle in handles]
+    inches = 0.55 + 0.075 * max(len(text) for text in texts)
+    columns = max(1, min(len(handles), int(figure.get_figwidth() / inches)))
+    room = (0.1 + 0.2 * -(-len(handles) // columns)) / figure.get_figheight()
     figure.set_layout_engine("constrained", rect=(0.0, room, 1.0, 1.0 - room))
     figure.legend(handles, texts, loc="lower center", ncol=columns)
