@@ -2,7 +2,7 @@
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from study.figures import colours, legend_below, markers, plt, save
+from study.figures import colours, legend_below, plt, save
 
 from sensitivity.predictions import drawn, quantities
 
@@ -60,12 +60,16 @@ def fragment_masses(by_label, folder, name):
     save(figure, folder, name)
 
 
-def spread(time, values, folder, name):
-    """Distance of the members' velocities from the first one over time. `values`: a row for each other member (of 200 m/s)."""
-    figure, axes = plt.subplots(figsize=(5.6, 3.2))
-    for n, row in enumerate(values):
-        axes.semilogy(1e6 * time, np.where(row > 0.0, row, np.nan), color=colours[n % len(colours)], linewidth=0.9, marker=markers[n % len(markers)], markersize=2.5)
-    axes.axvline(0.0, color="black", linewidth=0.8, linestyle=":")
+def spread(spreads, folder, name):
+    """Distance of an ensemble's members from its first one over time: median, and band from least to most. `spreads`: label -> (time, rows)."""
+    figure, axes = plt.subplots(figsize=(6.6, 3.9))
+    for n, (label, (time, rows)) in enumerate(spreads.items()):
+        floor = np.maximum(rows, 1e-17)
+        axes.fill_between(1e6 * time, floor.min(axis=0), floor.max(axis=0), color=colours[n], alpha=0.2, linewidth=0)
+        axes.plot(1e6 * time, np.median(floor, axis=0), color=colours[n], linestyle=["-", "--", "-.", ":", (0, (5, 1, 1, 1))][n % 5], label=label)
+    axes.set_yscale("log")
+    axes.set_ylim(1e-16, 1.0)
     axes.set_xlabel("time (µs)")
-    axes.set_ylabel("distance from member 1\n(RMS velocity, of 200 m/s)")
+    axes.set_ylabel("distance between members\n(RMS velocity, of 200 m/s)")
+    legend_below(figure, axes.get_lines())
     save(figure, folder, name)

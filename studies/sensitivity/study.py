@@ -8,7 +8,7 @@ from study.outcome import run as compute
 from study.tables import markdown, number, write_csv
 
 from sensitivity import figures
-from sensitivity.ensembles import all_ensembles, asked, base, case, spread_case, watched_members
+from sensitivity.ensembles import all_ensembles, asked, base, case, watched
 from sensitivity.predictions import fragment_masses, of_run, quantities, size, statistics
 
 name = "sensitivity"
@@ -16,30 +16,33 @@ small, large = 0.05, 0.2  # relative: what counts as little and as much
 
 
 def jobs(quick):
-    return [*all_ensembles(quick), "spread"]
+    return [*all_ensembles(quick), *_watched_jobs(quick)]
+
+
+def _watched_jobs(quick):
+    return {f"watched-{n}": label for n, label in enumerate(watched(quick))}
 
 
 def cases(quick):
     return [case(ensemble, member, quick) for ensemble in all_ensembles(quick).values() for member in range(1, ensemble.members + 1)] + \
-        [spread_case(member, quick) for member in watched_members(quick)]
+        [each for group in watched(quick).values() for each in group]
 
 
 def run(job, quick, out):
-    if job == "spread":
-        for member in watched_members(quick):
-            compute(spread_case(member, quick), out / "runs")
+    if job in _watched_jobs(quick):
+        for each in watched(quick)[_watched_jobs(quick)[job]]:
+            compute(each, out / "runs")
         return
     ensemble = all_ensembles(quick)[job]
     for member in range(1, ensemble.members + 1):
         compute(case(ensemble, member, quick), out / "runs")
 
 
-def _spread(quick, out):
+def _spread(group, out):
     """Times (s) and RMS distance of velocities of each other member from the first (of 200 m/s)."""
     fields = []
-    for member in watched_members(quick):
-        outcome = compute(spread_case(member, quick), out / "runs")
-        with h5py.File(outcome.folder / "result.h5") as result:
+    for each in group:
+        with h5py.File(compute(each, out / "runs").folder / "result.h5") as result:
             steps = [result["steps"][key] for key in sorted(result["steps"])]
             time = np.array([step.attrs["time"] for step in steps])
             fields.append(np.array([step["particles/velocity"][()] for step in steps]))
@@ -101,12 +104,15 @@ def report(quick, out):
     write_csv(out / "tables" / "robustness.csv", list(rows[0]), rows)
     for key, (title, ensembles) in asked(quick).items():
         figures.question(title, ensembles, members, found, base.name, out / "figures", key)
-    labels = {"base": "MUSL 0.05 µs", "musl-0.0125": "MUSL 0.0125 µs", "erk-1e-2": "ERK 3, rtol 1e-2", "musl-0.2": "MUSL 0.2 µs"}
+    labels = {"base": "MUSL 0.0493 µs", "musl-0.0125": "MUSL 0.0123 µs", "erk-1e-2": "ERK 3, rtol 1e-2", "musl-0.2": "MUSL 0.197 µs"}
     figures.fragment_masses({label: [fragment_masses(outcome) for outcome in outcomes[key] if outcome.complete] for key, label in labels.items() if key in outcomes},
                             out / "figures", "fragments")
-    time, distance = _spread(quick, out)
-    figures.spread(time, distance, out / "figures", "spread")
-    return _page_values(rows, outcomes, found, time, distance, quick), [*asked(quick), "fragments", "spread"]
+    spreads = {label: _spread(group, out) for label, group in watched(quick).items()}
+    write_csv(out / "tables" / "spread.csv", ["run", "time", "median", "least", "most"],
+              [{"run": label, "time": t, "median": float(np.median(column)), "least": float(column.min()), "most": float(column.max())}
+               for label, (time, distance) in spreads.items() for t, column in zip(time, distance.T)])
+    figures.spread(spreads, out / "figures", "spread")
+    return _page_values(rows, outcomes, found, spreads, quick), [*asked(quick), "fragments", "spread"]
 
 
 def _when(time, values, level):
@@ -114,7 +120,7 @@ def _when(time, values, level):
     return f"{number(1e6 * time[above[0]])} µs" if above.size else "never"
 
 
-def _page_values(rows, outcomes, found, time, distance, quick):
+def _page_values(rows, outcomes, found, spreads, quick):
     def percent(value):
         return None if value is None else number(100 * value, 2)
 
@@ -126,13 +132,14 @@ def _page_values(rows, outcomes, found, time, distance, quick):
         cells = [f"{number(quantities[q][2] * found[key][q]['median'], 3)} ({number(quantities[q][2] * found[key][q]['p05'], 3)} … {number(quantities[q][2] * found[key][q]['p95'], 3)})"
                  if found[key][q]["n"] else "–" for q in quantities]
         everyone.append([key, ensemble.members, sum(not outcome.complete for outcome in outcomes[key]), *cells])
-    middle = np.median(distance, axis=0)
+    apart = [[label, *[_when(time, np.median(distance, axis=0), level) for level in (1e-9, 1e-6, 1e-3, 1e-2)], number(float(np.median(distance[:, -1])), 2)]
+             for label, (time, distance) in spreads.items()]
     return {
         "robustness": markdown(["prediction", "base: median (5 … 95 %)", "scatter (%)", "shift, resolved steps and tolerances (%)", *[f"shift by {question} (%)" for question in groups], "verdict"], robust),
         "ensembles": markdown(["ensemble", "members", "failed", *[f"{label} ({unit})" if unit else label for label, unit, _ in quantities.values()]], everyone),
         "members": max(ensemble.members for ensemble in all_ensembles(quick).values()), "end": number(20 if quick else 150),
         "runs": number(sum(len(group) for group in outcomes.values())), "failed": sum(not outcome.complete for group in outcomes.values() for outcome in group),
-        "apart_1e6": _when(time, middle, 1e-6), "apart_1e3": _when(time, middle, 1e-3), "apart_end": number(float(middle[-1]), 2), "apart_until": number(1e6 * time[-1]),
+        "apart": markdown(["run", "1e-9 at", "1e-6 at", "1e-3 at", "1e-2 at", "in the end"], apart),
         "robust_list": ", ".join(row["prediction"] for row in rows if row["verdict"].startswith("robust")) or "none",
         "tolerance_list": ", ".join(row["prediction"] for row in rows if row["verdict"].startswith("needs")) or "none",
         "chaotic_list": ", ".join(row["prediction"] for row in rows if row["verdict"].startswith("chaotic")) or "none",

@@ -1,4 +1,5 @@
 """A case: one scene, changed by --set. The only place that knows the program's command line."""
+import functools
 import hashlib
 import json
 import math
@@ -62,15 +63,10 @@ def as_typed(case):
     return " ".join(f"'{word}'" if set(word) & set(' "{[') else word for word in words)
 
 
-_digests = {}
-
-
-def program_digest():
-    """SHA-256 of the program: results of another build are made anew."""
-    path = program()
-    if path not in _digests:
-        _digests[path] = hashlib.sha256(path.read_bytes()).hexdigest()
-    return _digests[path]
+@functools.cache
+def digest(path):
+    """SHA-256 of a file: results of another program or scene are made anew."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def check(case):

@@ -5,7 +5,7 @@ import subprocess
 import time
 from functools import cached_property
 
-from study.case import program_digest, run_command
+from study.case import digest, program, run_command, studies
 
 # Exit statuses: done, and computation failed (instability, tolerance not reachable), which is a result too.
 results = (0, 3)
@@ -64,7 +64,7 @@ def _up_to_date(folder, stamp):
 def run(case, runs):
     """The outcome of `case` in the folder `runs`/NAME; a run that is there already, by the same program, is kept."""
     folder = pathlib.Path(runs) / case.name
-    stamp = {"command": run_command(case, folder), "program": program_digest()}
+    stamp = {"command": run_command(case, folder), "program": digest(program()), "scene": digest(studies / case.scene)}
     if not _up_to_date(folder, stamp):
         _compute(case, folder, stamp)
     return Outcome(folder)

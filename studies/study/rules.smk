@@ -14,8 +14,12 @@ JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
 
 localrules: all, check
 
+# Whatever may change results; runs that a change leaves as they are, are found again by their command (study/outcome.py).
+SOURCES = [str(path) for folder in (STUDY, "study") for path in sorted((STUDIES / folder).glob("*.py"))] + \
+    [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
+
 rule check:
-    input: os.environ["VITRUM"]
+    input: os.environ["VITRUM"], SOURCES
     output: "checked.txt"
     message: "checking every scene"
     shell: "{MODULE} check {QUICK} > {output}"
@@ -27,7 +31,7 @@ rule job:
     shell: "{MODULE} run {wildcards.job} {QUICK}"
 
 rule report:
-    input: expand("jobs/{job}.done", job=JOBS)
+    input: expand("jobs/{job}.done", job=JOBS), str(STUDIES / STUDY / "page.md")
     output: "page.md"
     message: "tables, figures and page"
     shell: "{MODULE} report {QUICK}"

@@ -92,6 +92,8 @@ def tolerance(rows_by_problem, folder, name):
             _curves(axes, [row for row in rows if row["shape"] == "linear"], "tightness", column, here)
             span = np.array([1e-6, 1e-1])
             axes.loglog(span, span, color="black", linewidth=0.8, linestyle=":")
+            if not here:
+                axes.set_visible(False)
             axes.set_title(f"{title}, {'explicit' if prefix == 'erk' else 'implicit, same remaps'}", fontsize=8)
         line[0].set_ylabel("achieved error (–)")
     for axes in panels[-1]:
@@ -106,8 +108,9 @@ def divergence(series, folder, name):
     for (label, (time, velocity, kinetic)), colour, dashes in zip(series.items(), ("#0072B2", "#D55E00", "#009E73"), ("-", "--", "-.")):
         for axes, values in zip(panels, (velocity, kinetic)):
             axes.semilogy(1e6 * time, np.where(values > 0.0, values, np.nan), color=colour, linestyle=dashes, label=label)
-    panels[0].set_ylabel("difference of velocities (RMS, of 200 m/s)")
-    panels[1].set_ylabel("difference of kinetic energy (relative)")
+    panels[0].set_ylabel("RMS velocity, of 200 m/s")
+    panels[1].set_ylabel("kinetic energy, relative")
+    figure.suptitle("Difference between the two reference solutions", fontsize=10)
     for axes in panels:
         axes.set_xlabel("time (µs)")
     legend_below(figure, panels[0].get_lines())
