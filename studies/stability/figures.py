@@ -23,7 +23,7 @@ def limits(rows, folder, name):
                 axes.semilogx(offset, [row["theory"] for row in chosen], color=colours[n], linewidth=1.2)
                 axes.semilogx(offset, [row["measured"] for row in chosen], linestyle="", marker=markers[n], markerfacecolor="none", color=colours[n])
             axes.set_title(f"{names[scheme]}, {shape}")
-            axes.set_ylim(bottom=0.0)
+        line[0].set_ylim(0.0, 1.08 * max(max(row["theory"], row["measured"]) for row in rows if row["scheme"] == scheme))
         line[0].set_ylabel("largest stable\nc Δt / h")
     for axes in panels[-1]:
         axes.set_xlabel("offset of the particles (spacings)")
@@ -66,17 +66,19 @@ def growth(rows, folder, name):
 
 
 def energy(rows, folder, name):
-    """Energy made or lost by the reference case over the step; hollow: stopped by the watchdog."""
+    """Energy made or lost by the reference case over the step; hollow: stopped by the watchdog. Beyond `most` a mark stands at the edge."""
+    most = 1e3
     figure, axes = plt.subplots(figsize=(5.6, 3.4))
     for n, scheme in enumerate([scheme for scheme in ("usf", "musl", "usl") if any(row["scheme"] == scheme for row in rows)]):
         chosen = sorted((row for row in rows if row["scheme"] == scheme and row["made"] is not None), key=lambda row: row["setting"])
-        step, made = np.array([1e6 * row["setting"] for row in chosen]), np.abs([100.0 * row["made"] for row in chosen])
+        step, made = np.array([1e6 * row["setting"] for row in chosen]), np.minimum(np.abs([100.0 * row["made"] for row in chosen]), most)
         done = np.array([row["status"] == "complete" for row in chosen])
         axes.loglog(step, made, color=colours[n], linewidth=1.0)
-        axes.loglog(step[done], made[done], linestyle="", marker=markers[n], color=colours[n], label=names[scheme])
-        axes.loglog(step[~done], made[~done], linestyle="", marker=markers[n], markerfacecolor="white", color=colours[n],
-                    label=None if done.any() else names[scheme])
-    axes.plot([], [], linestyle="", marker="o", markerfacecolor="white", color="black", label="hollow: stopped by\nthe watchdog")
+        axes.loglog(step[done], made[done], linestyle="", marker=markers[n], color=colours[n])
+        axes.loglog(step[~done], made[~done], linestyle="", marker=markers[n], markerfacecolor="white", color=colours[n])
+        axes.plot([], [], marker=markers[n], color=colours[n], linewidth=1.0, label=names[scheme])
+    axes.plot([], [], linestyle="", marker="o", markerfacecolor="white", color="black", label="hollow: stopped by the\nwatchdog (≥ 1,000 %: at\nthe upper edge)")
+    axes.set_ylim(1e-2, 1.6 * most)
     axes.set_xlabel("step (µs)")
     axes.set_ylabel("|energy residual| (% of the impact's)")
     ticks = sorted({1e6 * row["setting"] for row in rows if row["scheme"] != "erk3"})

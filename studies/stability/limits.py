@@ -1,13 +1,17 @@
 """Largest stable step of a row at rest: measured by bisection, and by theory."""
+import tomllib
 from dataclasses import dataclass
 
-from study.case import Case
+from study.case import Case, studies
 from study.outcome import run
 
 from stability.theory import resting_limit
 
-cell = 1.0e-3  # m
-wave_speed = (195e9 * 0.75 / (7800.0 * 1.25 * 0.5)) ** 0.5  # m/s, pressure waves of row.toml's steel
+_scene = tomllib.loads((studies / "stability/row.toml").read_text())
+_steel = _scene["material"]["steel"]
+cell = _scene["space"]["cell"]  # m
+# Of pressure waves, m/s.
+wave_speed = (_steel["young"] * (1.0 - _steel["poisson"]) / (_steel["density"] * (1.0 + _steel["poisson"]) * (1.0 - 2.0 * _steel["poisson"]))) ** 0.5
 time_unit = cell / wave_speed  # s
 length = 40  # cells
 steps = 600

@@ -139,6 +139,12 @@ def report(quick, out):
     worst = max(found["limits"], key=lambda row: abs(row["deviation"]))
     at_paper_step = {row["speed"]: row for row in found["travel"] if (row["scheme"], row["shape"], row["particles_per_cell"]) == ("musl", "linear", 1)
                      and abs(row["step_us"] - 0.2) < 1e-6}
+    ranges = {}
+    for shape in figures.shapes:
+        of_shape = [row["measured"] for row in found["limits"] if row["scheme"] == "usf" and row["shape"] == shape]
+        ranges[shape] = f"{min(of_shape):.2f} to {max(of_shape):.2f}" if of_shape else "(not in the quick study)"
+    usl = [row["measured"] for row in found["limits"] if row["scheme"] == "usl" and row["shape"] == "linear"]
+    made = {(row["scheme"], row["setting"]): row for row in found["energy"]}
     failed = [row for row in found["extremes"] if row["status"] == "failed"]
     values = {
         "limit_count": len(deviation), "limit_median": number(100 * float(np.median(deviation)), 2),
@@ -148,6 +154,11 @@ def report(quick, out):
         "growth_theory": number(at_paper_step[min(at_paper_step, key=lambda v: abs(v - 200.0))]["theory"], 3),
         "growth_measured": number(at_paper_step[min(at_paper_step, key=lambda v: abs(v - 200.0))]["measured"], 3),
         "tolerated": number(100 * (tolerated - 1.0)), "energy": _energy_table(found["energy"]), "extremes": _extreme_table(found["extremes"]),
+        **{f"range_{shape}": text for shape, text in ranges.items()}, "range_usl": f"{min(usl):.2f} to {max(usl):.2f}",
+        "made_usf": number(100 * made["usf", 2e-7]["made"], 2), "made_musl": number(100 * made["musl", 2e-7]["made"], 2),
+        "grown_musl": number(100 * (made["musl", 2e-7]["max_growth"] - 1.0), 2),
+        "made_resolved": number(100 * max(abs(row["made"]) for key, row in made.items() if key[0] in ("usf", "musl") and key[1] <= 5e-8), 2),
+        "usl_completed": sum(row["status"] == "complete" for key, row in made.items() if key[0] == "usl"),
         "extreme_count": len(found["extremes"]), "extreme_failed": len(failed), "extreme_long": sum(row["status"] == "too-long" for row in found["extremes"]),
     }
     return values, ["limits", "growth", "energy"]
