@@ -1,13 +1,14 @@
 """Figures of the study of the paper's cases."""
 import matplotlib
 import numpy as np
+from matplotlib.lines import Line2D
 from plotting.particle_figures import damage, opening, snapshots
 from study.figures import colours, legend_below, plt, save
 
 from paper.sentences import plate_wave
 
 # The paper shows these: (radius, speed) -> times of its panels (µs).
-shown = {(200, 200): (50, 100, 150), (200, 800): (50, 100, 150), (400, 200): (50, 100, 150, 250)}
+shown = {(200, 200): (50, 90, 100, 150), (200, 800): (50, 100, 150), (400, 200): (50, 100, 150, 250)}
 labels = {"snapshots": snapshots, "damage": damage, "opening": opening}
 
 
@@ -67,21 +68,30 @@ def space_time(histories, title, folder, name):
 
 
 def fronts(by_treatment, folder, name):
-    """Damage fronts over time for every case. `by_treatment`: label -> {(radius, speed): History}."""
+    """Fronts of D > 0.1 (thick) and of D > 0.001 (thin) over time for every case. `by_treatment`: label -> {(radius, speed): History}."""
     radii = sorted({radius for runs in by_treatment.values() for radius, _ in runs})
-    figure, panels = plt.subplots(len(by_treatment), len(radii), figsize=(2.6 * len(radii) + 0.6, 2.2 * len(by_treatment) + 0.5), squeeze=False)
+    figure, panels = plt.subplots(len(by_treatment), len(radii), figsize=(2.6 * len(radii) + 0.6, 2.3 * len(by_treatment) + 0.8), squeeze=False, sharex=True,
+                                  sharey="col")
+    speeds = sorted({speed for runs in by_treatment.values() for _, speed in runs})
     for row, (label, runs) in zip(panels, by_treatment.items()):
         for axes, radius in zip(row, radii):
-            for n, speed in enumerate(sorted({v for r, v in runs if r == radius})):
-                history = runs[radius, speed]
-                axes.step(1e6 * history.time, 1e3 * history.damage_front, where="post", color=colours[n], linestyle=["-", "--", "-."][n],
-                          label=f"{speed} m/s")
+            for n, speed in enumerate(speeds):
+                history = runs.get((radius, speed))
+                if history is not None:
+                    look = {"where": "post", "color": colours[n], "linestyle": ["-", "--", "-."][n]}
+                    axes.step(1e6 * history.time, 1e3 * history.damage_front, linewidth=1.8, **look)
+                    axes.step(1e6 * history.time, 1e3 * history.first_damage_front, linewidth=0.8, **look)
+            axes.plot([0, 1e3 * radius / plate_wave], [0, radius], color="black", linewidth=0.8, linestyle=":")
             axes.set_xlim(0, 150)
-            axes.set_ylim(bottom=0)
+            axes.set_ylim(0, 1.05 * radius)
             axes.set_title(f"{label}, R = {radius} mm", fontsize=8)
-            axes.set_xlabel("time (µs)")
         row[0].set_ylabel("damage front (mm)")
-    panels[0, 0].legend()
+    for axes in panels[-1]:
+        axes.set_xlabel("time (µs)")
+    handles = [Line2D([], [], color=colours[n], linestyle=["-", "--", "-."][n], label=f"{speed} m/s") for n, speed in enumerate(speeds)]
+    handles += [Line2D([], [], color="black", linewidth=width, linestyle=dash, label=text) for text, width, dash in
+                (("D > 0.1", 1.8, "-"), ("D > 0.001", 0.8, "-"), ("plate wave", 0.8, ":"))]
+    legend_below(figure, handles)
     save(figure, folder, name)
 
 

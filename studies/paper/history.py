@@ -8,6 +8,7 @@ ring_width = 5e-3  # m
 # column of five.
 severe_share = 0.2
 damaged = 0.1  # D of the damage front, as in summary.json
+touched = 0.001  # D of the front of any damage: the scale of the paper's contours is unknown
 touch = 5e-3  # m: the cylinder's radius; what fails below it is the contact itself
 
 
@@ -39,10 +40,6 @@ class History:
     @cached_property
     def separated_share(self):
         return self._per_ring(self.separated)
-
-    @cached_property
-    def damaged_share(self):
-        return self._per_ring(self.damage > damaged)
 
     @cached_property
     def ring_opening(self):
@@ -86,7 +83,12 @@ class History:
     @cached_property
     def damage_front(self):
         """Outer radius of the outermost ring of which a fifth has D > 0.1, so far."""
-        return np.maximum.accumulate(self._front(self.damaged_share))
+        return np.maximum.accumulate(self._front(self._per_ring(self.damage > damaged)))
+
+    @cached_property
+    def first_damage_front(self):
+        """The same of D > 0.001."""
+        return np.maximum.accumulate(self._front(self._per_ring(self.damage > touched)))
 
     @cached_property
     def separation_front(self):

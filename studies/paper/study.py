@@ -41,7 +41,8 @@ def _case_row(radius, speed, treatment, history):
             "localised": plate["localised"], "separated": plate["separated"],
             **{f"severe_mm_{time}": None if value is None else 1e3 * value for time, value in severe.items()},
             "largest_opening_mm": None if history.largest_opening_radius is None else 1e3 * history.largest_opening_radius,
-            "damage_front_mm": 1e3 * history.damage_front[-1], "front_speed": history.front_speed(history.damage_front, 100e-6),
+            "damage_front_mm": 1e3 * history.damage_front[-1],
+            "first_damage_speed": history.front_speed(history.first_damage_front, 30e-6), "front_speed": history.front_speed(history.damage_front, 100e-6),
             "perforated": summary["failure"]["perforated"], "cylinder_velocity": cylinder["momentum"][1] / cylinder["mass"],
             "fragments": summary["failure"]["fragments"]["count"]}
 
@@ -96,7 +97,7 @@ def report(quick, out):
         runs = {treatment.label: histories[radius, speed, treatment] for treatment in treatments}
         space_time(runs, f"R = {radius} mm, {speed} m/s", figures, f"space-time-R{radius}-v{speed}")
         energies(runs, f"R = {radius} mm, {speed} m/s", figures, f"energy-R{radius}-v{speed}")
-    resolved = [treatment for treatment in treatments if treatment.resolved]
+    resolved = [treatment for treatment in treatments if treatment.resolved and treatment.key in ("b", "c-1e-3", "c-1e-2")][:3]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
     values = _page_values(every, histories, rows, case_rows, treatments)

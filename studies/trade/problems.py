@@ -81,7 +81,7 @@ def ladders(problem, shape, quick):
 
 
 def _quick_ladders(problem):
-    steps, tolerances = {"impact": ((5e-8, 2.5e-8, 1.25e-8), (1e-2, 1e-4, 1e-6)), "onset": ((1e-7, 5e-8), (1e-2, 1e-4)), "failure": ((1e-7, 5e-8), (1e-2,))}[problem.key]
+    steps, tolerances = {"impact": ((2.5e-8, 1.25e-8, 6.25e-9), (1e-2, 1e-4, 1e-6)), "onset": ((1e-7, 5e-8), (1e-2, 1e-4)), "failure": ((1e-7, 5e-8), (1e-2,))}[problem.key]
     found = {scheme: [Method(scheme, step, explicit(scheme, step)) for step in steps] for scheme in ("usf", "musl")}
     found |= {f"erk{order}": [Method(f"erk{order}", rtol, adaptive("explicit", order, rtol)) for rtol in tolerances] for order in (3, 4)}
     if problem is impact:

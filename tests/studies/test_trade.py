@@ -20,7 +20,7 @@ class Trade(StudyTest):
 
     def test_fixed_steps_are_of_order_one(self):
         for scheme in ("usf", "musl"):
-            errors = [self.rows["impact", scheme, step]["velocity"] for step in (2.5e-8, 1.25e-8)]
+            errors = [self.rows["impact", scheme, step]["velocity"] for step in (1.25e-8, 6.25e-9)]
             self.assertAlmostEqual(math.log2(errors[0] / errors[1]), 1.0, delta=0.2)
 
     def test_errors_fall_with_the_tolerance(self):
