@@ -17,8 +17,9 @@ if "VITRUM" not in os.environ:
 os.environ["VITRUM"] = os.path.abspath(os.environ["VITRUM"])
 
 
-def run_study(name, out, *options, timeout=600):
-    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=timeout)
+def run_study(name, out, *options):
+    """As `./quickstart study` does it, from the project's root."""
+    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=source)
 
 
 class StudyTest(unittest.TestCase):

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 
-from support import run_study, source
+from support import run_study
 
 skipped = 77  # what CTest counts as skipped
 
@@ -113,7 +113,7 @@ def main():
     os.environ["SLURM_CONF"] = str(node.configuration)
     try:
         node.up()
-        done = run_study("sensitivity", folder / "out", "--profile", str(source / "studies/profiles/slurm"))
+        done = run_study("sensitivity", folder / "out", "--profile", "studies/profiles/slurm")
         if done.returncode != 0:
             print(done.stdout[-2000:], done.stderr[-6000:], sep="\n")
             return 1
