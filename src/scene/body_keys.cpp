@@ -59,6 +59,8 @@ KeyTable body() {
       defaulted(list_key("stress", 4, finite, "Pa",
                          "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive"),
                 "[0.0, 0.0, 0.0, 0.0]"),
+      other_key("perturbation", "a table {amplitude = .., seed = ..}",
+                "random displacements of the particles, for ensembles; absent: none"),
   };
   return keys;
 }
@@ -81,6 +83,18 @@ KeyTable ring() {
       required(list_key("centre", 2, finite, "m", "centre")),
       required(number_key("inner", {0.0, infinite, false, true}, "m", "inner radius")),
       required(number_key("outer", positive, "m", "outer radius")),
+  };
+  return keys;
+}
+
+KeyTable perturbation() {
+  static const std::vector<KeyInfo> keys{
+      required(number_key("amplitude", {0.0, 0.1}, "cells",
+                          "each component of a displacement is uniform between plus and minus this")),
+      defaulted(
+          bounded(other_key("seed", "an integer from 0 to 1000000000", "another seed, other displacements"),
+                  {0.0, 1.0e9}),
+          "1"),
   };
   return keys;
 }

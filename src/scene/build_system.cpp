@@ -9,6 +9,7 @@
 #include "mpm/transfer.hpp"
 #include "scene/input_error.hpp"
 #include "scene/local_method.hpp"
+#include "scene/perturbation.hpp"
 #include "scene/seeding.hpp"
 
 namespace vitrum {
@@ -70,12 +71,20 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
                                definition.stress[3]};
   const PointState state = body.material->initial_state(stress);
   const SymmetricTensor& e = state.elastic_strain;
+  // Masses and velocities are those of the places before the shift: positions alone differ within an
+  // ensemble.
+  const std::vector<Vector2> shifts = displacements(definition.perturbation, scene.cell, p.size);
   const double density = body.material->parameters().elastic.density;
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
+    if (axisymmetric && !(x[0] + shifts[i][0] > 0.0))
+      throw InputError(fmt::format(
+          "body '{}': its perturbation moves a particle from r = {} m beyond the axis; expected a "
+          "smaller amplitude",
+          definition.name, x[0]));
     const auto& G = definition.velocity_gradient;
     for (std::size_t k = 0; k < 2; ++k) {
-      p.position[k][i] = x[k];
+      p.position[k][i] = x[k] + shifts[i][k];
       p.velocity[k][i] = definition.velocity[k] + G[k][0] * x[0] + G[k][1] * x[1];
     }
     p.mass[i] = density * seeds[i].area * (axisymmetric ? x[0] : 1.0);

@@ -112,6 +112,13 @@ void read_velocity_gradient(const TableReader& body, std::array<Vector2, 2>& gra
   gradient = {Vector2{rows[0][0], rows[0][1]}, Vector2{rows[1][0], rows[1][1]}};
 }
 
+void read_perturbation(const TableReader& body, Perturbation& perturbation) {
+  const auto table = body.table("perturbation", keys::perturbation());
+  if (!table) return;
+  table->read("amplitude", perturbation.amplitude);
+  table->read("seed", perturbation.seed);
+}
+
 void check_material(const TableReader& body, const BodyDefinition& definition, const Scene& scene) {
   std::vector<std::string> names;
   for (const MaterialParameters& material : scene.materials) names.push_back(material.name);
@@ -151,6 +158,7 @@ BodyDefinition read_body(const TableReader& table, const Scene& scene) {
   table.read("velocity", body.velocity);
   read_velocity_gradient(table, body.velocity_gradient);
   table.read("stress", body.stress);
+  read_perturbation(table, body.perturbation);
   return body;
 }
 

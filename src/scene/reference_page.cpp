@@ -33,7 +33,7 @@ and the other way round.
 This page is printed by the program from the tables that its reader uses; do not edit it.
 )";
 
-std::array<Section, 15> scene_sections() {
+std::array<Section, 16> scene_sections() {
   return {{
       {"The file", "Tables of the document.", keys::scene()},
       {"[space]", "Geometry and grid.", keys::space()},
@@ -50,6 +50,9 @@ std::array<Section, 15> scene_sections() {
       {"Shape `disk` of a body", "In axisymmetric geometry a disk centred on the axis is a sphere.",
        keys::disk()},
       {"Shape `ring` of a body", "`inner` is less than `outer`.", keys::ring()},
+      {"`perturbation` of a body",
+       "Positions alone are displaced; masses and velocities stay those of the places before.",
+       keys::perturbation()},
       {"[[boundary]]", "Grid nodes that are held or driven; the axis is handled by the geometry.",
        keys::boundary(Geometry::axisymmetric)},
       {"`box` of a boundary", "", keys::boundary_box()},

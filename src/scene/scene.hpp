@@ -35,6 +35,12 @@ struct Polygon {
 };
 using Shape = std::variant<Box, Disk, Ring, Polygon>;
 
+/// Random displacements of a body's particles from where they are seeded, for ensembles.
+struct Perturbation {
+  double amplitude = 0.0;  ///< cells; each component is uniform in (-amplitude, amplitude)
+  int seed = 1;
+};
+
 struct BodyDefinition {
   std::string name;
   std::string material;
@@ -43,6 +49,7 @@ struct BodyDefinition {
   Vector2 velocity{0.0, 0.0};                  ///< m/s at the origin
   std::array<Vector2, 2> velocity_gradient{};  ///< rows: dv_r/d(r,z), dv_z/d(r,z), 1/s
   std::array<double, 4> stress{};              ///< (rr, zz, tt, rz), Pa
+  Perturbation perturbation;
 };
 
 struct BoundaryDefinition {

@@ -26,6 +26,7 @@ KeyTable body();
 KeyTable box();
 KeyTable disk();
 KeyTable ring();
+KeyTable perturbation();
 /// The names in `fix` depend on the geometry.
 KeyTable boundary(Geometry geometry);
 KeyTable boundary_box();

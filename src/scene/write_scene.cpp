@@ -49,6 +49,10 @@ std::string value_text(const Ring& ring) {
                      number_text(ring.inner), number_text(ring.outer));
 }
 
+std::string value_text(const Perturbation& perturbation) {
+  return fmt::format("{{amplitude = {}, seed = {}}}", number_text(perturbation.amplitude), perturbation.seed);
+}
+
 class TomlWriter {
  public:
   void header(std::string_view text) { text_ += fmt::format("{}{}\n", text_.empty() ? "" : "\n", text); }
@@ -127,6 +131,7 @@ void write_body(TomlWriter& out, const BodyDefinition& body) {
   out.line("velocity", body.velocity);
   out.line("velocity_gradient", std::span<const Vector2>(body.velocity_gradient));
   out.line("stress", std::span<const double>(body.stress));
+  if (body.perturbation.amplitude > 0.0) out.line("perturbation", body.perturbation);
 }
 
 void write_boundary(TomlWriter& out, const BoundaryDefinition& boundary, Geometry geometry) {

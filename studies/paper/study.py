@@ -1,0 +1,136 @@
+"""The paper's nine cases: which of its sentences does each way of integrating reproduce?"""
+import sys
+
+from paper.cases import all_cases, name as case_name
+from paper.figures import energies, fronts, pictures, shown, space_time
+from paper.history import History
+from paper.sentences import judge, made_energy, overall, sentences
+from study.case import as_typed
+from study.command import main
+from study.outcome import Outcome, run as compute
+from study.tables import markdown, number, write_csv
+
+name = "paper"
+
+
+def jobs(quick):
+    return [case.name for case in all_cases(quick).values()]
+
+
+def cases(quick):
+    return list(all_cases(quick).values())
+
+
+def run(job, quick, out):
+    key, case = next((key, case) for key, case in all_cases(quick).items() if case.name == job)
+    outcome = compute(case, out / "runs")
+    radius, speed, _ = key
+    if (radius, speed) in shown:
+        pictures(outcome, shown[radius, speed], out / "figures", job)
+
+
+def _case_row(radius, speed, treatment, history):
+    summary = history.outcome.summary
+    plate, cylinder = summary["bodies"]["plate"], summary["bodies"]["cylinder"]
+    severe = {time: history.outermost_severe(1e-6 * time) for time in (50, 100, 150)}
+    return {"radius_mm": radius, "speed": speed, "treatment": treatment.key, "status": history.outcome.status,
+            "end_us": 1e6 * summary["time"], "steps": summary["integrator"]["steps"], "rejected": summary["integrator"]["rejected"],
+            "seconds": summary["wall_seconds"], "max_growth": summary["energy"]["max_growth"],
+            "residual": summary["energy"]["relative_residual"],
+            "first_decohesion_us": None if history.first_decohesion is None else 1e6 * history.first_decohesion,
+            "localised": plate["localised"], "separated": plate["separated"],
+            **{f"severe_mm_{time}": None if value is None else 1e3 * value for time, value in severe.items()},
+            "largest_opening_mm": None if history.largest_opening_radius is None else 1e3 * history.largest_opening_radius,
+            "damage_front_mm": 1e3 * history.damage_front[-1],
+            "first_damage_speed": history.front_speed(history.first_damage_front, 30e-6), "front_speed": history.front_speed(history.damage_front, 100e-6),
+            "perforated": summary["failure"]["perforated"], "cylinder_velocity": cylinder["momentum"][1] / cylinder["mass"],
+            "fragments": summary["failure"]["fragments"]["count"]}
+
+
+def _sentence_rows(histories, treatments):
+    for sentence in sentences:
+        row = {"sentence": sentence.key, "case": sentence.case, "text": sentence.text, "criterion": sentence.criterion}
+        verdicts = []
+        for treatment in treatments:
+            runs = {key[:2]: history for key, history in histories.items() if key[2] == treatment}
+            found, verdict = judge(sentence, runs)
+            verdicts.append((treatment.resolved, verdict))
+            row |= {f"{treatment.key}": verdict, f"{treatment.key} found": found,
+                    f"{treatment.key} energy made": made_energy(sentence, runs) if verdict not in ("–",) else None}
+        yield row | {"overall": overall(verdicts)}
+
+
+def _sentence_table(rows, treatments):
+    def cell(row, key):
+        error = row[f"{key} energy made"]
+        if error is None:
+            return row[f"{key} found"] or "–"
+        amount = f"{number(100 * error, 2)} %" if abs(error) < 10 else f"× {number(error, 1)}"
+        return f"{row[key]}: {row[f'{key} found']} ({amount})"
+
+    header = ["", "case", "the paper says", "counts as the same", *[treatment.label for treatment in treatments], "in all"]
+    return markdown(header, [[row["sentence"], row["case"], f"“{row['text']}”", row["criterion"],
+                              *[cell(row, treatment.key) for treatment in treatments], f"**{row['overall']}**"] for row in rows])
+
+
+def _case_table(rows, labels):
+    header = ["R (mm)", "v (m/s)", "treatment", "until (µs)", "steps", "seconds", "energy made (%)", "first decohesion (µs)", "separated",
+              "severe up to, at 50 / 100 / 150 µs (mm)", "damage front (mm)", "perforated", "cylinder (m/s)"]
+    return markdown(header, [[int(row["radius_mm"]), int(row["speed"]), labels[row["treatment"]],
+                              number(row["end_us"]), row["steps"], number(row["seconds"], 2), number(-100 * row["residual"], 2),
+                              number(row["first_decohesion_us"], 3), row["separated"],
+                              " / ".join(number(row[f"severe_mm_{time}"]) for time in (50, 100, 150)), number(row["damage_front_mm"]),
+                              {True: "yes", False: "no", None: "–"}[row["perforated"]], number(row["cylinder_velocity"], 4)] for row in rows])
+
+
+def report(quick, out):
+    every = all_cases(quick)
+    treatments = list(dict.fromkeys(treatment for _, _, treatment in every))
+    histories = {key: History(Outcome(out / "runs" / case.name)) for key, case in every.items()}
+    case_rows = [_case_row(*key, history) for key, history in histories.items()]
+    write_csv(out / "tables" / "cases.csv", list(case_rows[0]), case_rows)
+    rows = list(_sentence_rows(histories, treatments))
+    write_csv(out / "tables" / "sentences.csv", list(rows[0]), rows)
+
+    figures = out / "figures"
+    for radius, speed in {key[:2] for key in every} & set(shown):
+        runs = {treatment.label: histories[radius, speed, treatment] for treatment in treatments}
+        space_time(runs, f"R = {radius} mm, {speed} m/s", figures, f"space-time-R{radius}-v{speed}")
+        energies(runs, f"R = {radius} mm, {speed} m/s", figures, f"energy-R{radius}-v{speed}")
+    resolved = [treatment for treatment in treatments if treatment.resolved and treatment.key in ("b", "c-1e-3", "c-1e-2")][:3]
+    fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
+           figures, "fronts")
+    values = _page_values(every, histories, rows, case_rows, treatments)
+    published = [f"{kind}-R{radius}-v{speed}" for radius, speed in shown for kind in ("space-time",)] + ["energy-R200-v200", "fronts"]
+    published += [f"{case_name(*key, treatment)}-{kind}" for key, treatment, kind in
+                  (((200, 200), treatments[0], "snapshots"), ((200, 200), treatments[2], "snapshots"), ((200, 200), treatments[2], "damage"),
+                   ((200, 200), treatments[2], "opening"), ((200, 800), treatments[2], "snapshots"), ((400, 200), treatments[2], "snapshots"))]
+    return values, published
+
+
+def _page_values(every, histories, rows, case_rows, treatments):
+    labels = {treatment.key: treatment.label for treatment in treatments}
+    counts = {verdict: [row["sentence"] for row in rows if row["overall"] == verdict] for verdict in
+              ("reproduced", "depends on the integration", "only with an unresolved step", "only after a blow-up", "not reproduced", "undecided")}
+    resolved = [row for row in case_rows if next(t for t in treatments if t.key == row["treatment"]).resolved]
+    unresolved = [row for row in case_rows if row not in resolved]
+    decohesion = [row["first_decohesion_us"] for row in resolved if row["speed"] == 200]
+    first = next(case for key, case in every.items() if key[2] == treatments[2])
+    return {
+        "sentences": _sentence_table(rows, treatments),
+        "cases": _case_table(case_rows, labels),
+        "counts": markdown(["outcome", "sentences", "which"], [[verdict, len(keys), ", ".join(keys) or "–"] for verdict, keys in counts.items()]),
+        "total": len(rows),
+        "worst_resolved": number(100 * max(abs(row["residual"]) for row in resolved), 2),
+        "unresolved_ended": sum(row["status"] != "complete" for row in unresolved),
+        "unresolved_count": len(unresolved),
+        "unresolved_blown": sum(abs(row["residual"]) > 0.05 for row in unresolved),
+        "earliest_decohesion": number(min(decohesion), 3), "latest_decohesion": number(max(decohesion), 3),
+        "farthest_resolved": number(max(row["damage_front_mm"] for row in resolved)),
+        "farthest_severe": number(1e3 * max(history.separation_front[-1] for key, history in histories.items() if key[2].resolved)),
+        "command": as_typed(first),
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.modules[__name__]))

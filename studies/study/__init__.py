@@ -1,0 +1,1 @@
+"""What the studies share: cases and their runs, tables, figures, pages."""

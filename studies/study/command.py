@@ -1,0 +1,50 @@
+"""The command line of a study's module: `check`, `run JOB`, `report`; the rules of Snakemake call it."""
+import argparse
+import os
+import pathlib
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+from study.case import check
+from study.outcome import StudyError
+from study.page import PageError, fill, provenance, publish
+
+
+def _check(cases):
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        faults = [fault for fault in pool.map(check, cases) if fault]
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    print(f"{len(cases)} scenes checked, {len(faults)} invalid")
+    return 2 if faults else 0
+
+
+def _report(study, quick, out):
+    values, shown = study.report(quick, out)
+    template = (pathlib.Path(sys.modules[study.__name__].__file__).parent / "page.md").read_text()
+    page = fill(template, values) + "\n" + provenance(study.name, quick)
+    (out / "page.md").write_text(page)
+    if not quick:
+        publish(study.name, page, out / "figures", shown)
+    return 0
+
+
+def main(study):
+    """`study` is a module with: name; jobs(quick): names of jobs; cases(quick): every case that is known beforehand;
+    run(job, quick, out); report(quick, out): values of the page, figures that it shows."""
+    parser = argparse.ArgumentParser(description=study.__doc__)
+    parser.add_argument("verb", choices=["check", "run", "report"])
+    parser.add_argument("job", nargs="?")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
+    options = parser.parse_args()
+    try:
+        if options.verb == "check":
+            return _check(study.cases(options.quick))
+        if options.verb == "run":
+            study.run(options.job, options.quick, options.out)
+            return 0
+        return _report(study, options.quick, options.out)
+    except (StudyError, PageError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 3

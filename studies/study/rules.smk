@@ -1,0 +1,37 @@
+# The rules of every study. The Snakefile that includes them sets STUDY; the working directory is the study's output folder.
+import importlib
+import os
+import pathlib
+import sys
+
+STUDIES = pathlib.Path(workflow.basedir).parent
+sys.path.insert(0, str(STUDIES))
+os.environ.setdefault("VITRUM", str(STUDIES.parent / "build/release/src/app/vitrum"))
+QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
+# Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
+MODULE = f"PYTHONPATH={STUDIES} PYTHONDONTWRITEBYTECODE=1 VITRUM={os.environ['VITRUM']} /usr/bin/python3 -m {STUDY}.study"
+JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
+
+localrules: all, check
+
+# Whatever may change results; runs that a change leaves as they are, are found again by their command (study/outcome.py).
+SOURCES = [str(path) for folder in (STUDY, "study") for path in sorted((STUDIES / folder).glob("*.py"))] + \
+    [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
+
+rule check:
+    input: os.environ["VITRUM"], SOURCES
+    output: "checked.txt"
+    message: "checking every scene"
+    shell: "{MODULE} check {QUICK} > {output}"
+
+rule job:
+    input: "checked.txt"
+    output: touch("jobs/{job}.done")
+    message: "{wildcards.job}"
+    shell: "{MODULE} run {wildcards.job} {QUICK}"
+
+rule report:
+    input: expand("jobs/{job}.done", job=JOBS), str(STUDIES / STUDY / "page.md")
+    output: "page.md"
+    message: "tables, figures and page"
+    shell: "{MODULE} report {QUICK}"

@@ -1,0 +1,48 @@
+"""The cheapest setting for an accuracy."""
+from trade.figures import names as family_names
+from trade.problems import names, problems
+
+levels = (0.1, 0.01, 0.001)
+fixed_steps = ("usf", "usl", "musl")
+
+
+def _holds(row, family_rows, quantity, level):
+    """The level is met by the row and by all tighter settings of its family: no lucky hits."""
+    return all(other[quantity] is not None and other[quantity] <= level for other in family_rows if other["tightness"] <= row["tightness"])
+
+
+def _cheapest(rows, quantity, level, families=None):
+    best = None
+    for row in rows:
+        if row.get(quantity) is None or (families and row["family"] not in families) or row["local"] not in ("closed-form", "substep 1e-06", "substep 0.0001"):
+            continue
+        same = [other for other in rows if (other["family"], other["local"]) == (row["family"], row["local"]) and other["shape"] == row["shape"]
+                and other.get("seconds")]
+        if _holds(row, same, quantity, level) and (best is None or row["seconds"] < best["seconds"]):
+            best = row
+    return best
+
+
+def describe(row):
+    if row is None:
+        return "none"
+    setting = f"{1e6 * row['tightness']:g} µs" if row["family"] in fixed_steps else f"rtol {row['tightness']:g}"
+    return f"{family_names[row['family']]} {setting}" + ("" if row["local"] == "closed-form" else f", {row['local']}")
+
+
+def recommendations(rows, floors):
+    """One row for each problem, quantity and level; linear shape functions."""
+    found = []
+    for key, problem in problems.items():
+        linear = [row for row in rows.get(key, []) if row["shape"] == "linear"]
+        for quantity in names(problem) if linear else []:
+            floor = floors[key]["linear", quantity]
+            for level in levels:
+                row = {"problem": problem.title, "quantity": quantity, "level": level, "references apart": floor}
+                if floor is None or floor > level:
+                    found.append(row | {"cheapest": "undecidable: the references differ by more"})
+                    continue
+                best, fixed = _cheapest(linear, quantity, level), _cheapest(linear, quantity, level, fixed_steps)
+                found.append(row | {"cheapest": describe(best), "seconds": best and best["seconds"], "achieved": best and best[quantity],
+                                    "cheapest fixed step": describe(fixed), "seconds of the fixed step": fixed and fixed["seconds"]})
+    return found

@@ -1,0 +1,42 @@
+"""The quick study of the paper's cases: files, columns, and what a resolved step must show beside the paper's."""
+import unittest
+
+from support import StudyTest
+
+
+class Paper(StudyTest):
+    study = "paper"
+
+    def test_files(self):
+        self.assert_figures("space-time-R200-v200", "energy-R200-v200", "fronts", "R200-v200-b-snapshots", "R200-v200-b-damage")
+        self.assert_page("no fragmentation occurs at time t = 50", "Sentence by sentence")
+
+    def test_cases(self):
+        rows = {(row["speed"], row["treatment"]): row for row in
+                self.table("cases", ["radius_mm", "status", "max_growth", "residual", "first_decohesion_us", "front_speed", "perforated"])}
+        self.assertEqual(len(rows), 8)
+        for speed in (200.0, 800.0):
+            for resolved in ("b", "c-1e-2"):
+                row = rows[speed, resolved]
+                self.assertEqual(row["status"], "complete")
+                self.assertLess(abs(row["residual"]), 0.02)
+                self.assertLess(row["max_growth"], 1.01)
+                # The plate breaks as soon as it is hit, not after 70 us.
+                self.assertLess(abs(row["first_decohesion_us"]), 3.0)
+                # The step of 0.2 us makes energy; what resolves the wave does not.
+                for unresolved in ("a-usf", "a-musl"):
+                    self.assertGreater(abs(rows[speed, unresolved]["residual"]), 5.0 * abs(row["residual"]))
+                    self.assertGreater(rows[speed, unresolved]["max_growth"], row["max_growth"])
+            self.assertLess(rows[speed, "b"]["front_speed"], 5543.0)
+        self.assertEqual(rows[800.0, "b"]["perforated"], "True")
+
+    def test_sentences(self):
+        rows = {row["sentence"]: row for row in self.table("sentences", ["sentence", "text", "criterion", "a-usf", "b", "b found", "b energy made", "overall"])}
+        self.assertEqual(len(rows), 25)  # twenty, five of them in two readings
+        self.assertEqual(rows["S1"]["overall"], "not reproduced")  # there are fragments at 50 us
+        self.assertEqual(rows["S9"]["b"], "yes")  # perforation at 800 m/s
+        self.assertEqual(rows["S15"]["overall"], "undecided")  # R = 400 mm is not in the quick study
+
+
+if __name__ == "__main__":
+    unittest.main()
