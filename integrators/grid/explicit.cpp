@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
 
@@ -21,7 +22,8 @@ ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> 
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
   system.record.external_work = 0.0;
-  mpm::refresh_grid(system, mpm::Storage::sorted);
+  mpm::find_coasting(system);
+  mpm::refresh_grid_and_wake(system);
   switch (scheme_) {
     case StepScheme::usf:
       mpm::scatter(system, Scatter::momentum, Nodes::velocities);
@@ -39,6 +41,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
       mpm::gather_and_update_stress(system, Gather::strain_and_position, duration);
       break;
   }
+  mpm::coast(system, duration);
   ++system.step_index;
 }
 

@@ -60,6 +60,7 @@ void store(const RunState& state, output::Checkpoint& checkpoint) {
   visit_numbers(state, [&](const char* name, const auto&... values) {
     checkpoint.numbers[name] = {static_cast<double>(values)...};
   });
+  checkpoint.numbers["coasting"] = state.coasting;
   for (std::size_t body = 0; body < state.failure.size(); ++body)
     for (const auto& [event, member] : first_events)
       if (const std::optional<FirstEvent>& first = state.failure[body].*member) {
@@ -75,6 +76,7 @@ RunState restored(const output::Checkpoint& checkpoint) {
     std::size_t k = 0;
     (assign(values, numbers[k++], name), ...);
   });
+  state.coasting = numbers_of(checkpoint, "coasting", checkpoint.bodies.size());
   state.failure.resize(checkpoint.bodies.size());
   for (std::size_t body = 0; body < state.failure.size(); ++body)
     for (const auto& [event, member] : first_events) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "analysis/energy_totals.hpp"
 #include "analysis/failure.hpp"
@@ -12,6 +13,7 @@ namespace vitrum::app {
 struct RunState {
   EnergyTotals energy;
   std::vector<FailureAnalysis::Memory> failure;  ///< by body
+  std::vector<double> coasting;                  ///< by body: 1 where it coasts, else 0
   IntegratorState integrator;
   std::int64_t outputs = 0;       ///< planned outputs written, the one at the start not counted
   std::int64_t checkpoints = 0;   ///< planned checkpoints written

@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/failed_point.hpp"
 #include "app/signals.hpp"
+#include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
@@ -74,6 +75,7 @@ void Simulation::resume() {
   system_.constitutive_evaluations = state_.evaluations;
   system_.constitutive_events = state_.events;
   system_.constitutive_solver = state_.solver;
+  mpm::restore_coasting(system_, state_.coasting);
   ledger_ = EnergyLedger(system_, state_.energy);
   failure_.restore(state_.failure);
   integrator_->restore(state_.integrator);
@@ -227,6 +229,8 @@ void Simulation::write_checkpoint() {
   state_.evaluations = system_.constitutive_evaluations;
   state_.events = system_.constitutive_events;
   state_.solver = system_.constitutive_solver;
+  state_.coasting.clear();
+  for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
   store(state_, checkpoint);
   output::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
 }

@@ -119,7 +119,8 @@ void StressUpdate::book() {
     system_.constitutive_solver += reports_[k].solver;
     enter(system_.record, k % bodies, reports_[k]);
   }
-  system_.constitutive_evaluations += static_cast<std::int64_t>(system_.particle_count());
+  for (const Body& body : system_.bodies)
+    system_.constitutive_evaluations += static_cast<std::int64_t>(body.on_grid());
   system_.constitutive_events += static_cast<std::int64_t>(system_.record.events.size());
 }
 

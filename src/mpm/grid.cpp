@@ -65,7 +65,7 @@ bool Grid::has_left(std::size_t tile, const std::vector<Body>& bodies) const {
 /// range of cells.
 void Grid::sort_particles(const std::vector<Body>& bodies) {
   std::size_t total = 0;
-  for (const Body& body : bodies) total += body.particles.size;
+  for (const Body& body : bodies) total += body.on_grid();
   home_.resize(total);
   index_.resize(total);
 
@@ -75,7 +75,7 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
   std::size_t k = 0;
   std::int32_t last = -1;
   for (const Body& body : bodies)
-    for (std::size_t p = 0; p < body.particles.size; ++p, ++k) {
+    for (std::size_t p = 0; p < body.on_grid(); ++p, ++k) {
       const std::int64_t i = checked_cell(body.particles.position[0][p] * per_cell, body, p);
       const std::int64_t j = checked_cell(body.particles.position[1][p] * per_cell, body, p);
       const auto column = static_cast<std::int32_t>(block_of(i)),
@@ -124,14 +124,15 @@ void Grid::sort_particles(const std::vector<Body>& bodies) {
   offset_.assign(count * body_count_ + 1, 0);
   k = 0;
   for (std::size_t body = 0; body < body_count_; ++body)
-    for (std::size_t p = 0; p < bodies[body].particles.size; ++p, ++k) {
+    for (std::size_t p = 0; p < bodies[body].on_grid(); ++p, ++k) {
       home_[k] = rank[static_cast<std::size_t>(home_[k])];
       ++offset_[static_cast<std::size_t>(home_[k]) * body_count_ + body + 1];
     }
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   std::vector<std::uint32_t> next(offset_.begin(), offset_.end() - 1);
   k = 0;
-  for (std::size_t body = 0; body < body_count_; ++body) k = append(bodies[body].particles, body, k, next);
+  for (std::size_t body = 0; body < body_count_; ++body)
+    if (!bodies[body].coasting) k = append(bodies[body].particles, body, k, next);
   contiguous_.resize(count * body_count_);
   for (std::size_t list = 0; list < contiguous_.size(); ++list)
     contiguous_[list] = std::adjacent_find(index_.begin() + offset_[list], index_.begin() + offset_[list + 1],

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,11 +30,22 @@ struct Particles {
   std::vector<double> stress_zr;
 };
 
+/// What is known of a body that coasts (mpm/coasting.hpp).
+struct Coasting {
+  std::array<double, 2> velocity;         ///< m/s, of all its particles
+  std::array<double, 2> lowest, highest;  ///< m, of its particles' positions
+  double kinetic;                         ///< J (per radian or per metre)
+};
+
 struct Body {
   std::string name;
   std::shared_ptr<const Material> material;
   Particles particles;
   double particle_half_size = 0.0;  ///< m, half the side of a particle's initial square (GIMP)
+  std::optional<Coasting> coasting = std::nullopt;
+
+  /// Particles that take part in the grid.
+  std::size_t on_grid() const { return coasting ? 0 : particles.size; }
 };
 
 }  // namespace vitrum

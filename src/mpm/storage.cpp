@@ -29,6 +29,7 @@ void reorder(Particles& p, const std::vector<std::uint32_t>& order) {
 
 void Grid::sort_storage(std::vector<Body>& bodies) {
   for (std::size_t body = 0; body < body_count_; ++body) {
+    if (bodies[body].coasting) continue;
     place_.clear();  // the particles in their new order
     for (std::size_t tile = 0; tile < tile_block_.size(); ++tile) {
       const auto [begin, end, contiguous] = particles(tile, body);

@@ -42,6 +42,7 @@ struct System {
   StepRecord record;
   std::int64_t constitutive_evaluations = 0, constitutive_events = 0;
   SolverCounters constitutive_solver;  ///< work of the local ODE solvers so far
+  bool coasting_settled = false;       ///< it has been decided which bodies start coasting
   bool grid_is_stale = true;           ///< a particle has left the cells its block was made for
 
   std::size_t particle_count() const {

@@ -1,0 +1,142 @@
+#include "mpm/coasting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/transfer.hpp"
+
+namespace vitrum::mpm {
+namespace {
+
+/// Cells [first, last] along both directions.
+struct CellBox {
+  std::array<double, 2> first, last;
+};
+
+bool overlap(const CellBox& a, const CellBox& b) {
+  return a.first[0] <= b.last[0] && b.first[0] <= a.last[0] && a.first[1] <= b.last[1] &&
+         b.first[1] <= a.last[1];
+}
+
+CellBox cells_of(const Coasting& body, double cell) {
+  CellBox box;
+  for (std::size_t k = 0; k < 2; ++k)
+    box.first[k] = std::floor(body.lowest[k] / cell), box.last[k] = std::floor(body.highest[k] / cell);
+  return box;
+}
+
+/// Cells in which another particle may share a node with one of the box. A particle of cell i touches nodes i
+/// and i + 1 (linear), or no others than i - 1 to i + 2.
+CellBox neighbourhood(CellBox box, ShapeKind shape) {
+  const double reach = shape == ShapeKind::linear ? 1.0 : 3.0;
+  for (std::size_t k = 0; k < 2; ++k) box.first[k] -= reach, box.last[k] += reach;
+  return box;
+}
+
+bool are_uniform(const std::vector<double>& values, double value) {
+  return std::all_of(values.begin(), values.end(), [=](double v) { return v == value; });
+}
+
+bool may_coast(const System& system, const Body& body) {
+  const Particles& p = body.particles;
+  if (p.size == 0 || system.gravity[0] != 0.0 || system.gravity[1] != 0.0) return false;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (!std::isfinite(p.velocity[k][0]) || !are_uniform(p.velocity[k], p.velocity[k][0])) return false;
+  if (system.axisymmetric && p.velocity[0][0] != 0.0) return false;  // hoops would stretch
+  return std::all_of(p.elastic_strain.begin(), p.elastic_strain.end(),
+                     [](const std::vector<double>& e) { return are_uniform(e, 0.0); });
+}
+
+void find_bounds(const Particles& p, Coasting& c) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto [least, greatest] = std::minmax_element(p.position[k].begin(), p.position[k].end());
+    c.lowest[k] = *least, c.highest[k] = *greatest;
+  }
+}
+
+void start(Body& body) {
+  const Particles& p = body.particles;
+  Coasting c{{p.velocity[0][0], p.velocity[1][0]}, {}, {}, 0.0};
+  find_bounds(p, c);
+  for (const double m : p.mass)
+    c.kinetic += 0.5 * m * (c.velocity[0] * c.velocity[0] + c.velocity[1] * c.velocity[1]);
+  body.coasting = c;
+}
+
+/// Whether a held node that the body may touch asks for another velocity than the body's.
+bool meets_boundary(const System& system, const Coasting& body) {
+  const double cell = system.cell, reach = system.grid.shape() == ShapeKind::linear ? 1.0 : 2.0;
+  for (const Boundary& wall : system.grid.boundaries()) {
+    bool differs = false, near = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      differs = differs || (wall.fixed[k] && wall.velocity[k] != body.velocity[k]);
+      near = near && wall.min[k] <= body.highest[k] + reach * cell &&
+             wall.max[k] >= body.lowest[k] - reach * cell;
+    }
+    if (differs && near) return true;
+  }
+  return false;
+}
+
+bool meets_another(const System& system, const Body& body) {
+  const double cell = system.cell;
+  const CellBox reach = neighbourhood(cells_of(*body.coasting, cell), system.grid.shape());
+  for (const Body& other : system.bodies)
+    if (&other != &body && other.coasting && other.coasting->velocity != body.coasting->velocity &&
+        overlap(reach, cells_of(*other.coasting, cell)))
+      return true;
+  for (const Block& b : system.grid.blocks()) {
+    const auto at = [&](std::size_t k) { return static_cast<double>(b.cells[k]); };
+    if (b.tile >= 0 && overlap(reach, {{at(0), at(2)}, {at(1), at(3)}})) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void find_coasting(System& system) {
+  if (system.coasting_settled) return;
+  system.coasting_settled = true;
+  for (Body& body : system.bodies)
+    if (may_coast(system, body)) start(body);
+  system.grid_is_stale = true;
+}
+
+void restore_coasting(System& system, const std::vector<double>& coasting) {
+  system.coasting_settled = true;
+  for (std::size_t n = 0; n < system.bodies.size(); ++n)
+    if (coasting[n] != 0.0 && system.bodies[n].particles.size > 0) start(system.bodies[n]);
+  system.grid_is_stale = true;
+}
+
+void refresh_grid_and_wake(System& system) {
+  // Who wakes may wake others.
+  for (bool woken = true; woken;) {
+    refresh_grid(system, Storage::sorted);
+    std::vector<Body*> near;
+    for (Body& body : system.bodies)
+      if (body.coasting && (meets_boundary(system, *body.coasting) || meets_another(system, body)))
+        near.push_back(&body);
+    for (Body* body : near) body->coasting.reset();
+    woken = !near.empty();
+    system.grid_is_stale = system.grid_is_stale || woken;
+  }
+}
+
+void coast(System& system, double duration) {
+  for (Body& body : system.bodies) {
+    if (!body.coasting) continue;
+    Coasting& c = *body.coasting;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double travel = duration * c.velocity[k];
+      if (travel == 0.0) continue;
+      for (double& x : body.particles.position[k]) x += travel;
+    }
+    // (Rounding keeps the order of positions: the extremes move like all others.)
+    for (std::size_t k = 0; k < 2; ++k)
+      c.lowest[k] += duration * c.velocity[k], c.highest[k] += duration * c.velocity[k];
+    system.record.kinetic += c.kinetic;
+  }
+}
+
+}  // namespace vitrum::mpm
