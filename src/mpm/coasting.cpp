@@ -39,6 +39,10 @@ bool are_uniform(const std::vector<double>& values, double value) {
 
 bool may_coast(const System& system, const Body& body) {
   const Particles& p = body.particles;
+  constexpr double farthest = 2.0e9;  // cells: the grid refuses what is further off, and what is no number
+  for (const std::vector<double>& x : p.position)
+    if (!std::all_of(x.begin(), x.end(), [&](double v) { return std::abs(v) < farthest * system.cell; }))
+      return false;
   if (p.size == 0 || system.gravity[0] != 0.0 || system.gravity[1] != 0.0) return false;
   for (std::size_t k = 0; k < 2; ++k)
     if (!std::isfinite(p.velocity[k][0]) || !are_uniform(p.velocity[k], p.velocity[k][0])) return false;
