@@ -32,7 +32,7 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
 }
 
 void GridSystem::begin_phase() {
-  mpm::refresh_grid(system_);
+  mpm::refresh_grid(system_, mpm::Storage::sorted);
   mpm::scatter(system_, mpm::Scatter::momentum);
   mpm::project_velocities(system_);
   mpm::number_unknowns(system_, nodes_);

@@ -53,6 +53,9 @@ std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, con
 }
 
 void ParticleSystem::begin(double* y) {
+  // Always, so that the order of the unknowns follows from the positions, not from the history.
+  system_.grid_is_stale = true;
+  mpm::refresh_grid(system_, mpm::Storage::sorted);
   std::fill(y, y + size_, 0.0);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Particles& p = system_.bodies[n].particles;
@@ -82,13 +85,44 @@ void ParticleSystem::load(const double* y) {
     });
     mirrored_[n].clear();
     if (!system_.axisymmetric) continue;
-    for (std::size_t i = 0; i < p.size; ++i)
+    const double* r = p.position[0].data();
+    int beyond = 0;
+#pragma omp simd reduction(| : beyond)
+    for (std::size_t i = 0; i < p.size; ++i) beyond |= r[i] < 0.0 ? 1 : 0;
+    for (std::size_t i = 0; beyond != 0 && i < p.size; ++i)
       if (p.position[0][i] < 0.0) {
         mirrored_[n].push_back(i);
         p.position[0][i] = -p.position[0][i], p.velocity[0][i] = -p.velocity[0][i];
       }
   }
 }
+
+namespace {
+
+/// Turns the changes of strain since the last commit into the frame that has turned by `turn`.
+template <bool small>
+void turn_changes(std::size_t begin, std::size_t end, const std::array<const double*, 4>& strain,
+                  const std::array<const double*, 4>& committed, const double* turn,
+                  const std::array<double*, 4>& to) {
+  const auto [e0, e1, e2, e3] = strain;
+  const auto [c0, c1, c2, c3] = committed;
+  const auto [to0, to1, to2, to3] = to;
+#pragma GCC ivdep
+  for (std::size_t i = begin; i < end; ++i) {
+    const SymmetricTensor change = rotate({e0[i] - c0[i], e1[i] - c1[i], e2[i] - c2[i], e3[i] - c3[i]},
+                                          small ? rotation_by_small(turn[i]) : rotation_by(turn[i]));
+    to0[i] = change.rr, to1[i] = change.zz, to2[i] = change.tt, to3[i] = change.rz;
+  }
+}
+
+double largest_of(const double* values, std::size_t begin, std::size_t end) {
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, std::abs(values[i]));
+  return largest;
+}
+
+}  // namespace
 
 /// Strain and turn since the last commit, in the frame of the committed state. Whether there are any.
 bool ParticleSystem::set_increments(const double* y) {
@@ -102,15 +136,18 @@ bool ParticleSystem::set_increments(const double* y) {
     for (std::size_t k = 0; k < 4; ++k)
       same = same && std::equal(e[k], e[k] + p.size, start.strain[k].begin());
     changed = changed || !same;
+    std::array<const double*, 4> committed{};
+    std::array<double*, 4> to{};
+    for (std::size_t k = 0; k < 4; ++k)
+      committed[k] = start.strain[k].data(), to[k] = p.strain_increment[k].data();
+    const double* turned = start.turn.data();
+    double* spin = p.spin_increment.data();
     for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const SymmetricTensor change = rotate({e[0][i] - start.strain[0][i], e[1][i] - start.strain[1][i],
-                                               e[2][i] - start.strain[2][i], e[3][i] - start.strain[3][i]},
-                                              rotation_by(start.turn[i]));
-        p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
-        p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
-        p.spin_increment[i] = w[i] - start.turn[i];
-      }
+      if (largest_of(turned, begin, end) <= small_angle)
+        turn_changes<true>(begin, end, e, committed, turned, to);
+      else
+        turn_changes<false>(begin, end, e, committed, turned, to);
+      for (std::size_t i = begin; i < end; ++i) spin[i] = w[i] - turned[i];
     });
   }
   return changed;

@@ -69,6 +69,7 @@ void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver
 
 std::optional<std::size_t> first_not_finite(const double* values, std::size_t size) {
   double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
   for (std::size_t i = 0; i < size; ++i) sum += values[i];
   if (std::isfinite(sum)) return std::nullopt;
   for (std::size_t i = 0; i < size; ++i)

@@ -107,6 +107,14 @@ class Interpolated {
   Pack<P::width> r_[P::gradient ? Chunk::capacity : 1], z_[P::gradient ? Chunk::capacity : 1];
 };
 
+/// Largest absolute value.
+double largest_size(const double* values, std::size_t size) {
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t k = 0; k < size; ++k) largest = std::max(largest, std::abs(values[k]));
+  return largest;
+}
+
 /// Strain increments of a chunk: the integral of R^T D R over the increment, R turning from 0 to `spin`.
 template <bool axisymmetric, bool small, class P>
 void store_turned(std::size_t size, const Interpolated<P>& at, const double* spin, const double* radius,
@@ -132,16 +140,13 @@ void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, c
   ColumnWriter e0(chunk, p.strain_increment[0]), e1(chunk, p.strain_increment[1]),
       e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spins(chunk, p.spin_increment);
   const double *r = at.along_r(), *z = at.along_z();
-  double *spin = spins.data(), largest = 0.0;
+  double* spin = spins.data();
   const double half_scale = 0.5 * duration / cell;
   const std::size_t size = chunk.size();
-#pragma omp simd reduction(max : largest)
-  for (std::size_t k = 0; k < size; ++k) {
-    spin[k] = half_scale * (r[P::width * k + 1] - z[P::width * k]);
-    largest = std::max(largest, std::abs(spin[k]));
-  }
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) spin[k] = half_scale * (r[P::width * k + 1] - z[P::width * k]);
   const std::array<double*, 4> to{e0.data(), e1.data(), e2.data(), e3.data()};
-  if (0.5 * largest <= small_angle)
+  if (0.5 * largest_size(spin, size) <= small_angle)
     store_turned<axisymmetric, true>(size, at, spin, radius.data(), cell, duration, to);
   else
     store_turned<axisymmetric, false>(size, at, spin, radius.data(), cell, duration, to);
@@ -216,22 +221,34 @@ void store_gradient(const Chunk& chunk, const ParticleGradient& to, const Interp
     tt[k] = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
   }
 }
+template <bool axisymmetric, bool small, class P>
+void store_turned_rates(std::size_t size, const Interpolated<P>& at, const double* turn, const double* radius,
+                        double cell, const std::array<double*, 4>& to, double* spin) {
+  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
+  double *e0 = to[0], *e1 = to[1], *e2 = to[2], *e3 = to[3];
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t n = P::width * k;
+    const double hoop = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
+    const SymmetricTensor e =
+        rotate({per_cell * r[n], per_cell * z[n + 1], hoop, 0.5 * per_cell * (z[n] + r[n + 1])},
+               small ? rotation_by_small(-turn[k]) : rotation_by(-turn[k]));
+    e0[k] = e.rr, e1[k] = e.zz, e2[k] = e.tt, e3[k] = e.rz;
+    spin[k] = 0.5 * per_cell * (r[n + 1] - z[n]);
+  }
+}
 template <bool axisymmetric, class P>
 void store_gradient(const Chunk& chunk, const ParticleRates& to, const Interpolated<P>& at,
                     const ColumnReader& radius, double cell) {
   ColumnWriter rr(chunk, to.strain[0]), zz(chunk, to.strain[1]), tt(chunk, to.strain[2]),
       rz(chunk, to.strain[3]), spin(chunk, to.spin);
-  const ColumnReader turn(chunk, to.turn);
-  const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
-  for (std::size_t k = 0; k < chunk.size(); ++k) {
-    const std::size_t n = P::width * k;
-    const double hoop = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
-    const SymmetricTensor e =
-        rotate({per_cell * r[n], per_cell * z[n + 1], hoop, 0.5 * per_cell * (z[n] + r[n + 1])},
-               rotation_by(-turn[k]));
-    rr[k] = e.rr, zz[k] = e.zz, tt[k] = e.tt, rz[k] = e.rz;
-    spin[k] = 0.5 * per_cell * (r[n + 1] - z[n]);
-  }
+  const ColumnReader turns(chunk, to.turn);
+  const double *turn = turns.data(), largest = largest_size(turn, chunk.size());
+  const std::array<double*, 4> strain{rr.data(), zz.data(), tt.data(), rz.data()};
+  if (largest <= small_angle)
+    store_turned_rates<axisymmetric, true>(chunk.size(), at, turn, radius.data(), cell, strain, spin.data());
+  else
+    store_turned_rates<axisymmetric, false>(chunk.size(), at, turn, radius.data(), cell, strain, spin.data());
 }
 
 /// P: a plan. targets: by body, for the plans that have a target; otherwise null. stress: null where it is

@@ -54,9 +54,18 @@ bool Grid::has_left(std::size_t tile, const std::vector<Body>& bodies) const {
   const CellRange cells(block, 1.0 / cell_);
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const auto& x = bodies[n].particles.position;
+    const double *x0 = x[0].data(), *x1 = x[1].data();
     const Range range = particles(tile, n);
-    for (const std::uint32_t* k = range.begin; k != range.end; ++k)
-      if (!cells.contain(x[0][*k], x[1][*k])) return true;
+    int outside = 0;
+    if (range.contiguous && range.begin != range.end) {
+      const std::size_t first = *range.begin, end = first + static_cast<std::size_t>(range.end - range.begin);
+#pragma omp simd reduction(| : outside)
+      for (std::size_t i = first; i < end; ++i) outside |= cells.contain(x0[i], x1[i]) ? 0 : 1;
+    } else {
+      for (const std::uint32_t* k = range.begin; k != range.end; ++k)
+        outside |= cells.contain(x0[*k], x1[*k]) ? 0 : 1;
+    }
+    if (outside != 0) return true;
   }
   return false;
 }

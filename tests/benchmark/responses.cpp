@@ -43,15 +43,15 @@ Case make_case(Mode mode) {
     case Mode::elastic:
       return {glass, after(glass, {-1e-5, -1e-5, -1e-5, 0.0}, 1), {1e-7, -1e-7, 0.0, 1e-7}};
     case Mode::damaging: {
-      PointState s = after(glass, {1e-3, 1e-4, 1e-4, 0.0}, 100);
-      return {glass, s, {1e-5, 1e-6, 1e-6, 0.0}};
+      PointState s = after(glass, {6e-4, 6e-5, 6e-5, 0.0}, 100);
+      return {glass, s, {6e-6, 6e-7, 6e-7, 0.0}};
     }
     case Mode::flowing: {
       const MaterialParameters steel = flowing_steel();
       return {steel, after(steel, {2e-3, -2e-3, 0.0, 2e-3}, 10), {1e-5, -1e-5, 0.0, 2e-5}};
     }
     case Mode::crushed:
-      return {glass, after(glass, {-4e-3, 1e-3, 0.0, 0.0}, 10), {-1e-5, 5e-6, 0.0, 1e-5}};
+      return {glass, after(glass, {-4e-3, 3e-3, 0.0, 0.0}, 10), {-1e-5, 8e-6, 0.0, 1e-5}};
     case Mode::opening: {
       const MaterialParameters p = cohesive_glass(5.0e-6);
       const auto material = make_material(p, cell);

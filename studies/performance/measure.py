@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""Everything that docs/performance.md says in figures, measured on this machine, in one command:
+
+    studies/performance/measure.py BUILD [--out DIR] [--repetitions N] [--quick]
+
+BUILD is a build tree with the target vitrum_benchmarks (cmake --preset native && cmake --build --preset native). Leaves measurements.md
+(tables), benchmarks.json (Google Benchmark's own) and roofline.png in DIR (default: docs). --quick: small scenes once, to see that the
+script runs. Run it on a quiet machine: it times.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+import tables
+from roofline import draw_roofline
+
+here = pathlib.Path(__file__).resolve().parent
+
+
+def run_benchmarks(build, out, repetitions, quick):
+    """Medians of Google Benchmark, by name; what of a name is measured stands in tests/benchmark."""
+    results = out / "benchmarks.json"
+    command = [build / "tests/benchmark/vitrum_benchmarks", f"--benchmark_out={results}", "--benchmark_out_format=json",
+               f"--benchmark_repetitions={repetitions}", "--benchmark_enable_random_interleaving=true"]
+    if quick:
+        command += ["--benchmark_min_time=1e-9", "--benchmark_filter=-(thousand:500|thousand:80|large_plate|reference_run)"]
+    else:
+        command += ["--benchmark_min_time=0.2"]
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(done.stderr)
+    entries = json.loads(results.read_text())["benchmarks"]
+    failed = [e for e in entries if e.get("error_occurred")]
+    if failed:
+        sys.exit(f"{failed[0]['name']}: {failed[0]['error_message']}")
+    by_name = {}
+    for entry in entries:
+        if entry["run_type"] == "iteration":
+            by_name.setdefault(entry["run_name"], []).append(entry)
+    return by_name
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path, default=here.parent.parent / "docs")
+    parser.add_argument("--repetitions", type=int, default=7)
+    parser.add_argument("--quick", action="store_true")
+    arguments = parser.parse_args()
+    repetitions = 2 if arguments.quick else max(5, arguments.repetitions)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    program = arguments.build / "src/app/vitrum"
+
+    benchmarks = run_benchmarks(arguments.build, arguments.out, repetitions, arguments.quick)
+    parts = [tables.header(program, repetitions)]
+    parts.append(tables.machine_and_scenes(benchmarks))
+    parts.append(tables.parts_of_a_step(benchmarks))
+    parts.append(tables.responses(benchmarks))
+    parts.append(tables.required(program, repetitions, arguments.quick))
+    parts.append(tables.growth(program, repetitions, arguments.quick))
+    (arguments.out / "performance-measurements.md").write_text("\n\n".join(parts) + "\n")
+    pictures = arguments.out / "pictures"
+    pictures.mkdir(exist_ok=True)
+    draw_roofline(benchmarks, pictures / "roofline.png")
+
+
+if __name__ == "__main__":
+    main()

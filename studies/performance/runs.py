@@ -1,0 +1,88 @@
+"""Timed runs of the program: medians of interleaved repetitions, so that a slow minute of the machine meets all of them."""
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+
+here = pathlib.Path(__file__).resolve().parent
+bar = here / "elastic_bar.toml"
+reference = here.parent / "paper" / "reference.toml"
+step_of_80k, cell_of_80k = 3.095e-9, 0.078125e-3
+
+
+class Case:
+    """A scene with settings. threads: 0 lets the program choose."""
+
+    def __init__(self, name, scene, settings=(), threads=1, fields=False):
+        self.name, self.scene, self.settings, self.threads, self.fields = name, scene, list(settings), threads, fields
+
+
+def bar_settings(cell, steps):
+    """The bar with cells of this side, for a number of steps of 0.2 cells of the wave speed."""
+    step = step_of_80k * cell / cell_of_80k
+    return [f"space.cell={cell!r}", f"integrator.step={step!r}", f"time.end={step * steps!r}"]
+
+
+def once(program, case):
+    """One run: seconds of its time loop, particles, steps, and the largest memory of its process (bytes)."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, "run", case.scene, "--out", folder, "--quiet"]
+        if case.threads:
+            command += ["--threads", str(case.threads)]
+        if not case.fields:
+            command += ["--no-fields"]
+        for setting in case.settings:
+            command += ["--set", setting]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        errors = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            raise SystemExit(f"{case.name}: exit status {process.returncode}\n{errors}")
+        summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
+    return {"seconds": summary["wall_seconds"], "particles": summary["particles"], "steps": summary["integrator"]["steps"],
+            "memory": usage.ru_maxrss * 1024}
+
+
+class Timing:
+    """What several runs of a case took."""
+
+    def __init__(self, case, runs):
+        self.case, self.runs = case, runs
+        self.particles, self.steps = runs[0]["particles"], runs[0]["steps"]
+        self.seconds = [run["seconds"] for run in runs]
+        self.memory = statistics.median(run["memory"] for run in runs)
+
+    @property
+    def work(self):
+        return self.particles * self.steps
+
+    @property
+    def median(self):
+        return statistics.median(self.seconds)
+
+    @property
+    def rate(self):
+        """Million particle-steps a second."""
+        return 1e-6 * self.work / self.median
+
+    @property
+    def spread(self):
+        """Half the distance of the quartiles, relative to the median."""
+        low, _, high = statistics.quantiles(self.seconds, n=4)
+        return 0.5 * (high - low) / self.median
+
+    def ratio(self, other):
+        """Time a particle-step relative to another case: the median of the ratios of runs that stood next to each other."""
+        return statistics.median((a / self.work) / (b / other.work) for a, b in zip(self.seconds, other.seconds))
+
+
+def measure(program, cases, repetitions):
+    """Timings by name. Every repetition runs all cases, forwards and backwards in turn."""
+    runs = {case.name: [] for case in cases}
+    for repetition in range(repetitions):
+        for case in cases if repetition % 2 == 0 else reversed(cases):
+            runs[case.name].append(once(program, case))
+    return {case.name: Timing(case, runs[case.name]) for case in cases}

@@ -1,0 +1,152 @@
+"""The tables of docs/performance-measurements.md."""
+import datetime
+import math
+import platform
+import statistics
+import subprocess
+
+import counts
+import runs
+from roofline import ceilings, median, scene_points
+
+
+def table(columns, rows):
+    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+    return "\n".join(lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows])
+
+
+def spread(entries, key):
+    values = [entry[key] for entry in entries]
+    low, _, high = statistics.quantiles(values, n=4)
+    return 0.5 * (high - low) / statistics.median(values)
+
+
+def percent(part):
+    return f"{100 * part:.0f} %"
+
+
+def header(program, repetitions):
+    version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()
+    processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())
+    return (f"# Performance: every measurement\n\n`studies/performance/measure.py`, {datetime.date.today()}, {version[0]}, {version[1]}, "
+            f"{processor}. Medians of {repetitions} runs; the spread is half the distance of the quartiles. What the figures mean stands "
+            "in [performance](performance.md).")
+
+
+def machine_and_scenes(benchmarks):
+    bandwidth, scalar, vector = ceilings(benchmarks)
+    flops, moved = counts.flops(4), counts.bytes_moved()
+    rows = [(label, f"{rate / 1e6:.1f}", f"{rate * flops / 1e9:.1f}", percent(rate * flops / scalar), percent(rate * flops / vector),
+             f"{rate * moved / 1e9:.1f}", percent(rate * moved / bandwidth)) for label, rate in scene_points(benchmarks)]
+    text = (f"## Machine and roofline\n\nOne core: memory {bandwidth / 1e9:.1f} GB/s (triad), scalar peak {scalar / 1e9:.1f}, vector peak "
+            f"{vector / 1e9:.1f} Gflop/s. Bar, MUSL: {flops:.0f} flops and {moved} bytes a particle-step (counted, "
+            "`studies/performance/counts.py`); the bytes leave the caches only where the scene is larger than they.\n\n")
+    text += table(["bar", "M particle-steps/s", "Gflop/s", "of scalar peak", "of vector peak", "GB/s", "of memory"], rows)
+    scenes = [(name.removesuffix("/real_time"), f"{median(e, 'items_per_second') / 1e6:.2f}", percent(spread(e, "items_per_second")))
+              for name, e in benchmarks.items() if name.startswith(("elastic_bar", "colliding_disks", "reference_run", "large_plate"))]
+    return text + "\n\n## Scenes\n\n" + table(["scene", "M particle-steps/s", "spread"], scenes)
+
+
+def parts_of_a_step(benchmarks):
+    names = ("scatter", "gather", "rebuild", "explicit_step", "arkode", "implicit", "klu", "result_output", "checkpoint")
+    rows = [(name, e[0].get("label", ""), f"{1e9 / median(e, 'items_per_second'):.1f}", percent(spread(e, "items_per_second")))
+            for name, e in benchmarks.items() if name.startswith(names)]
+    return "## Parts of a step\n\n" + table(["part", "of", "ns a particle", "spread"], rows)
+
+
+def responses(benchmarks):
+    rows = [(*e[0]["label"].split(", "), f"{1e6 / median(e, 'items_per_second'):.3g}", percent(spread(e, "items_per_second")),
+             f"{e[0]['solver_steps']:.3g}") for name, e in benchmarks.items() if name.startswith("response")]
+    return "## Responses\n\n" + table(["increment", "method", "us", "spread", "solver steps"], rows)
+
+
+def required_cases(quick):
+    settings = runs.bar_settings(0.625e-3 if quick else 0.15625e-3, 20 if quick else 400)
+    models = {
+        "damage": ["material.steel.damage={toughness=1e12, k=5e26, m=6}"],
+        "von Mises": ["material.steel.von_mises={yield=1e15, peak=1e15, hardening=0, softening=0}"],
+        "Drucker-Prager": ["material.steel.drucker_prager={yield=1e15, beta=1.0}"],
+        "damage and decohesion": ["material.steel.damage={toughness=1e12, k=5e26, m=6}",
+                                  "material.steel.decohesion={opening=1e-6, mode_ratio=1.0}"],
+    }
+    step = float(settings[1].split("=")[1])
+    steps = 20 if quick else 400
+    cases = [runs.Case("elastic, axisymmetric", runs.bar, settings),
+             runs.Case("plane strain (no hoop terms)", runs.bar, [*settings, 'space.geometry="plane-strain"'])]
+    cases += [runs.Case(f"with {name}, never reached", runs.bar, settings + more) for name, more in models.items()]
+    cases += [runs.Case("with 4 outputs of all fields", runs.bar, [*settings, f"output.every={step * steps / 4!r}"], fields=True),
+              runs.Case("gimp", runs.bar, [*settings, 'space.shape_functions="gimp"']),
+              runs.Case("bspline2", runs.bar, [*settings, 'space.shape_functions="bspline2"'])]
+    return cases
+
+
+def required(program, repetitions, quick):
+    timings = runs.measure(program, required_cases(quick), repetitions)
+    base = timings["elastic, axisymmetric"]
+    rows = [(name, f"{t.rate:.1f}", percent(t.spread), f"{t.ratio(base):.2f}") for name, t in timings.items()]
+    musl = ['integrator.scheme="musl"', "integrator.step=5e-8", "output.every=200e-6"]
+    flight = runs.measure(program, [
+        runs.Case("free flight (t < 0)", runs.reference, [*musl, "time.end=-0.1e-6"]),
+        runs.Case("whole run", runs.reference, [*musl, "time.end=10e-6" if quick else "time.end=150e-6"]),
+        runs.Case("whole run, R = 800 mm", runs.reference, [*musl, "time.end=10e-6" if quick else "time.end=150e-6",
+                                                            "body.0.box.max.0=0.8", "boundary.0.box.min.0=0.8",
+                                                            "boundary.0.box.max.0=0.9"])], repetitions)
+    more = [(name, t.particles, t.steps, f"{t.median:.3f}", percent(t.spread), f"{1e9 * t.median / t.work:.0f}")
+            for name, t in flight.items()]
+    return ("## Only what the scene requires\n\nTime a particle-step relative to the elastic bar, runs side by side.\n\n" +
+            table(["scene", "M particle-steps/s", "spread", "ratio"], rows) + "\n\n" +
+            table(["reference case", "particles", "steps", "s", "spread", "ns a particle-step"], more) + "\n\n" +
+            memory(program, quick))
+
+
+def memory(program, quick):
+    """Bytes a particle: what 3 of 4 particles of the larger scene add to the process."""
+    small, large = (runs.bar_settings(c, 3) for c in ((0.625e-3, 0.3125e-3) if quick else (0.15625e-3, 0.078125e-3)))
+    rows = []
+    for name, more in [("elastic", []), ("with damage", ["material.steel.damage={toughness=1e12, k=5e26, m=6}"]),
+                       ("with damage, Drucker-Prager, decohesion",
+                        ["material.steel.damage={toughness=1e12, k=5e26, m=6}", "material.steel.drucker_prager={yield=1e15, beta=1.0}",
+                         "material.steel.decohesion={opening=1e-6, mode_ratio=1.0}"]),
+                       ("arkode-explicit, elastic", ['integrator.method="arkode-explicit"']),
+                       ("arkode-implicit, elastic", ['integrator.method="arkode-implicit"'])]:
+        a, b = (runs.once(program, runs.Case(name, runs.bar, settings + more)) for settings in (small, large))
+        rows.append((name, f"{(b['memory'] - a['memory']) / (b['particles'] - a['particles']):.0f}", f"{b['memory'] / 1e6:.0f}"))
+    return "Memory, bar of 81,920 particles:\n\n" + table(["model", "bytes a particle", "process, MB"], rows)
+
+
+def exponent(x, y):
+    """Slope of the least-squares line through the logarithms."""
+    lx, ly = [math.log(v) for v in x], [math.log(v) for v in y]
+    mx, my = statistics.mean(lx), statistics.mean(ly)
+    return sum((a - mx) * (b - my) for a, b in zip(lx, ly)) / sum((a - mx) ** 2 for a in lx)
+
+
+def growth(program, repetitions, quick):
+    cells = [0.625e-3, 0.3125e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.0390625e-3, 0.01953125e-3]
+    steps = {cell: max(20, min(4000, int(4e6 * (cell / 0.625e-3) ** 2 / 1280))) if not quick else 20 for cell in cells}
+    sizes = runs.measure(program, [runs.Case(f"{cell}", runs.bar, runs.bar_settings(cell, steps[cell])) for cell in cells], repetitions)
+    rows = [(t.particles, f"{t.rate:.1f}", percent(t.spread), f"{1e6 * t.median / t.steps:.0f}", f"{t.memory / 1e6:.0f}") for t in sizes.values()]
+    particles = [t.particles for t in sizes.values()]
+    lines = [("particles, time a step", f"{exponent(particles, [t.median / t.steps for t in sizes.values()]):.2f}"),
+             ("particles, memory beyond the smallest", f"{exponent(particles[1:], [t.memory - list(sizes.values())[0].memory for t in list(sizes.values())[1:]]):.2f}" if len(particles) > 2 else "-")]
+    cell = 0.625e-3 if quick else 0.15625e-3
+    counted = [20, 40] if quick else [100, 200, 400, 800]
+    by_steps = runs.measure(program, [runs.Case(f"{n}", runs.bar, runs.bar_settings(cell, n)) for n in counted], repetitions)
+    lines.append(("steps, time", f"{exponent(counted, [t.median for t in by_steps.values()]):.2f}"))
+    musl = ['integrator.scheme="musl"', "integrator.step=5e-8", "output.every=200e-6", f"time.end={'0.0' if quick else '50e-6'}"]
+    radii = [0.2, 0.4, 0.8]
+    by_radius = runs.measure(program, [runs.Case(f"R = {R} m", runs.reference, [
+        *musl, f"body.0.box.max.0={R}", f"boundary.0.box.min.0={R}", f"boundary.0.box.max.0={R + 0.1}"]) for R in radii], repetitions)
+    lines.append(("radius of the plate at the same impact, time", f"{exponent(radii, [t.median for t in by_radius.values()]):.2f}"))
+    return ("## Growth\n\n" + table(["particles", "M particle-steps/s", "spread", "us a step", "process, MB"], rows) + "\n\n" +
+            table(["what grows", "exponent"], lines) + "\n\n" + threads(program, repetitions, quick))
+
+
+def threads(program, repetitions, quick):
+    rows = []
+    for cell in [0.625e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.03125e-3]:
+        settings = runs.bar_settings(cell, 20 if quick else max(20, int(4e6 * (cell / 0.625e-3) ** 2 / 1280)))
+        t = runs.measure(program, [runs.Case("1", runs.bar, settings), runs.Case("2", runs.bar, settings, threads=2),
+                                   runs.Case("chosen", runs.bar, settings, threads=0)], repetitions)
+        rows.append((t["1"].particles, f"{1.0 / t['2'].ratio(t['1']):.2f}", f"{1.0 / t['chosen'].ratio(t['1']):.2f}"))
+    return "Speed relative to one thread:\n\n" + table(["particles", "two threads", "as the program chooses"], rows)
