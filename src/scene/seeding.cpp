@@ -7,16 +7,16 @@
 namespace vitrum {
 namespace {
 
-Box bounds(const Box& b) {
+Box bounds_of(const Box& b) {
   return b;
 }
-Box bounds(const Disk& d) {
+Box bounds_of(const Disk& d) {
   return {{d.centre[0] - d.radius, d.centre[1] - d.radius}, {d.centre[0] + d.radius, d.centre[1] + d.radius}};
 }
-Box bounds(const Ring& r) {
-  return bounds(Disk{r.centre, r.outer});
+Box bounds_of(const Ring& r) {
+  return bounds_of(Disk{r.centre, r.outer});
 }
-Box bounds(const Polygon& p) {
+Box bounds_of(const Polygon& p) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Box b{{infinite, infinite}, {-infinite, -infinite}};
   for (const Vector2& v : p.vertices)
@@ -35,15 +35,16 @@ bool inside(const Ring& r, const Vector2& x) {
   const double s = squared_distance(x, r.centre);
   return s < r.outer * r.outer && s >= r.inner * r.inner;
 }
-/// Even-odd rule.
-bool inside(const Polygon& p, const Vector2& x) {
-  bool in = false;
+
+/// Where the horizontal line at height y crosses the polygon, from left to right: inside is to the right of
+/// an odd number of crossings.
+void find_crossings(const Polygon& p, double y, std::vector<double>& crossings) {
+  crossings.clear();
   for (std::size_t i = 0, j = p.vertices.size() - 1; i < p.vertices.size(); j = i++) {
     const Vector2 &a = p.vertices[i], &b = p.vertices[j];
-    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
-      in = !in;
+    if ((a[1] > y) != (b[1] > y)) crossings.push_back((b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]) + a[0]);
   }
-  return in;
+  std::sort(crossings.begin(), crossings.end());
 }
 
 std::vector<Seed> seed(const Box& box, double spacing) {
@@ -64,9 +65,28 @@ std::vector<Seed> seed(const Box& box, double spacing) {
   return seeds;
 }
 
+std::vector<Seed> seed(const Polygon& polygon, double spacing) {
+  const Box box = bounds_of(polygon);
+  std::vector<Seed> seeds;
+  std::vector<double> crossings;
+  for (auto j = static_cast<long long>(std::floor(box.min[1] / spacing)),
+            end = static_cast<long long>(std::ceil(box.max[1] / spacing));
+       j < end; ++j) {
+    const double y = (static_cast<double>(j) + 0.5) * spacing;
+    find_crossings(polygon, y, crossings);
+    for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
+      for (auto i = static_cast<long long>(std::floor(crossings[k] / spacing)) - 1;; ++i) {
+        const double x = (static_cast<double>(i) + 0.5) * spacing;
+        if (!(x < crossings[k + 1])) break;
+        if (x >= crossings[k]) seeds.push_back({{x, y}, spacing * spacing});
+      }
+  }
+  return seeds;
+}
+
 template <class Curved>
 std::vector<Seed> seed(const Curved& shape, double spacing) {
-  const Box box = bounds(shape);
+  const Box box = bounds_of(shape);
   const auto first = [&](double low) { return static_cast<long long>(std::floor(low / spacing)); };
   const auto last = [&](double high) { return static_cast<long long>(std::ceil(high / spacing)); };
   std::vector<Seed> seeds;
@@ -80,14 +100,18 @@ std::vector<Seed> seed(const Curved& shape, double spacing) {
 
 }  // namespace
 
+Box bounds(const Shape& shape) {
+  return std::visit([](const auto& s) { return bounds_of(s); }, shape);
+}
+
 double most_seeds(const Shape& shape, double cell, int per_side) {
-  const Box box = std::visit([](const auto& s) { return bounds(s); }, shape);
+  const Box box = bounds(shape);
   const double spacing = cell / per_side;
   return ((box.max[0] - box.min[0]) / spacing + 2.0) * ((box.max[1] - box.min[1]) / spacing + 2.0);
 }
 
 double reach(const Shape& shape) {
-  const Box box = std::visit([](const auto& s) { return bounds(s); }, shape);
+  const Box box = bounds(shape);
   return std::max({std::abs(box.min[0]), std::abs(box.min[1]), std::abs(box.max[0]), std::abs(box.max[1])});
 }
 

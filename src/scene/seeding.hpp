@@ -11,6 +11,9 @@ struct Seed {
   double area;
 };
 
+/// The smallest box around a shape.
+Box bounds(const Shape& shape);
+
 /// No fewer particles than seed_shape would make.
 double most_seeds(const Shape& shape, double cell, int per_side);
 
