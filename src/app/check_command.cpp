@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "app/command_line.hpp"
+#include "app/demands.hpp"
+#include "app/machine.hpp"
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/error_scales.hpp"
 #include "output/particle_fields.hpp"
@@ -18,37 +20,6 @@
 namespace vitrum::app {
 namespace {
 
-double bytes_of(const System& system) {
-  double bytes = 0.0;
-  for (const Body& body : system.bodies) {
-    const Particles& p = body.particles;
-    std::size_t columns = 2 + 2 + 1 + 4 + 4 + 4 + 1;
-    for (const auto& v : p.variables) columns += v.empty() ? 0 : 1;
-    bytes += static_cast<double>(p.size * (columns * sizeof(double) + sizeof(std::uint32_t)));
-  }
-  return bytes;
-}
-
-/// The critical step of the scene's method: of an explicit scheme, of an explicit Butcher table, or (for
-/// comparison: an implicit method has none) that of MUSL.
-CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
-  switch (integrator.method) {
-    case GridMethod::explicit_steps:
-      return critical_step(system, stability_limit(step_scheme(integrator.scheme)));
-    case GridMethod::arkode_explicit:
-      return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0));
-    case GridMethod::arkode_implicit:
-      return critical_step(system, stability_limit(StepScheme::musl));
-  }
-  return {};
-}
-
-/// The step that the scene fixes; none where it adapts to the error.
-std::optional<double> planned_step(const IntegratorDefinition& integrator, const CriticalStep& critical) {
-  if (integrator.method != GridMethod::explicit_steps) return integrator.fixed_step;
-  return integrator.step ? *integrator.step : *integrator.courant * critical.step;
-}
-
 /// What the tolerances of an adaptive method are relative to.
 nlohmann::ordered_json scales_of(const IntegratorDefinition& integrator, const System& system) {
   if (integrator.method == GridMethod::explicit_steps) return nullptr;
@@ -56,7 +27,8 @@ nlohmann::ordered_json scales_of(const IntegratorDefinition& integrator, const S
   return {{"velocity", s.velocity}, {"strain", s.strain}, {"length", s.length}};
 }
 
-nlohmann::ordered_json derived(const Scene& scene, const System& system) {
+nlohmann::ordered_json derived(const Scene& scene, const System& system, const SceneSize& size,
+                               const Work& work, int threads) {
   using json = nlohmann::ordered_json;
   const double whole = system.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
   json bodies = json::object();
@@ -74,20 +46,30 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system) {
   const auto of_step = [&](auto&& f) { return step ? known(f(*step)) : json(nullptr); };
   return {{"title", scene.title},
           {"particles", system.particle_count()},
-          {"memory_bytes", bytes_of(system)},
+          {"memory_bytes", size.memory},
+          {"memory_available", available_memory()},
+          {"disk_bytes", disk_space_of(scene, system, true)},
+          {"threads", threads},
+          {"seconds", work.seconds},
+          {"particle_steps_a_second", particle_steps_a_second},
           {"bodies", bodies},
           {"critical_step", critical.step},
           {"critical_body", critical.body},
           {"step", known(step)},
           {"step_to_critical", of_step([&](double s) { return s / critical.step; })},
-          {"steps", of_step([&](double s) { return std::ceil((scene.end - scene.start) / s - 1e-6); })},
+          {"steps", work.is_planned ? json(work.steps) : json(nullptr)},
+          {"least_steps", work.steps},
           {"scales", scales_of(scene.integrator, system)}};
 }
 
 }  // namespace
 
-std::vector<std::string> warnings(const Scene& scene, const System& system) {
+std::vector<std::string> warnings(const Scene& scene, const System& system, int threads) {
   std::vector<std::string> list;
+  if (const Work work = work_of(scene, system, threads); work.seconds > long_run)
+    list.push_back(fmt::format("time.end: {}{:.3g} steps of {} particles take about {} on {} threads",
+                               work.is_planned ? "" : "at least ", work.steps, system.particle_count(),
+                               duration_text(work.seconds), threads));
   const GridMethod method = scene.integrator.method;
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   const double step = planned_step(scene.integrator, critical).value_or(0.0);
@@ -131,10 +113,15 @@ std::vector<std::string> warnings(const Scene& scene, const System& system) {
 
 int check_scene(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);
+  const SceneSize size = size_of(scene);
+  require_memory(scene, size);
   const System system = build_system(scene, 1);
+  const int threads = threads_for(system.particle_count(), available_threads());
   output::select_fields(scene.output.fields, output::materials_of(system.bodies));  // throws InputError
-  const std::vector<std::string> warned = warnings(scene, system);
-  nlohmann::ordered_json facts = derived(scene, system);
+  const Work work = work_of(scene, system, threads);
+  require_time(scene, system, work, threads);
+  const std::vector<std::string> warned = warnings(scene, system, threads);
+  nlohmann::ordered_json facts = derived(scene, system, size, work, threads);
   if (options.json) {
     facts["warnings"] = warned;
     facts["resolved"] = resolved_toml(scene);
@@ -148,7 +135,12 @@ int check_scene(const CheckOptions& options) {
                body["particles"].get<std::size_t>(), body["mass"].get<double>(),
                system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
                body["wave_speed"].get<double>());
-  fmt::print("# {} particles, {:.3g} MB\n", system.particle_count(), 1e-6 * bytes_of(system));
+  fmt::print("# {} particles; a run takes about {} of memory ({} available) and {} of disk space\n",
+             system.particle_count(), bytes_text(size.memory), bytes_text(available_memory()),
+             bytes_text(disk_space_of(scene, system, true)));
+  fmt::print("# {}about {} on {} thread{}, at {:g} particle-steps a second and thread\n",
+             work.is_planned ? "" : "at least ", duration_text(work.seconds), threads,
+             threads == 1 ? "" : "s", particle_steps_a_second);
   fmt::print(
       "# critical step {}{:.6g} s (body '{}')\n",
       scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",

@@ -17,6 +17,7 @@ struct CheckOptions {
 int check_scene(const CheckOptions& options);
 
 /// What a user should know before running: a step beyond the critical one, a crack law that snaps back, ...
-std::vector<std::string> warnings(const Scene& scene, const System& system);
+/// threads: that a run uses.
+std::vector<std::string> warnings(const Scene& scene, const System& system, int threads);
 
 }  // namespace vitrum::app

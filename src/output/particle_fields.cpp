@@ -133,6 +133,11 @@ std::vector<std::string> known_fields(std::span<const Material* const> materials
   return names;
 }
 
+std::size_t components_of(std::string_view field) {
+  if (field == "position" || field == "velocity") return 2;
+  return field == "stress" || field == "elastic_strain" ? 4 : 1;
+}
+
 std::vector<std::string> select_fields(const std::optional<std::vector<std::string>>& requested,
                                        std::span<const Material* const> materials) {
   std::vector<std::string> known = known_fields(materials);

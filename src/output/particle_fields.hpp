@@ -2,6 +2,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mpm/particles.hpp"
@@ -20,6 +21,9 @@ std::vector<std::string> known_fields(std::span<const Material* const> materials
 /// can be drawn without it. Throws InputError listing the known names when a requested field is none of them.
 std::vector<std::string> select_fields(const std::optional<std::vector<std::string>>& requested,
                                        std::span<const Material* const> materials);
+
+/// Numbers a particle that a field has.
+std::size_t components_of(std::string_view field);
 
 /// The materials of bodies, one per body.
 std::vector<const Material*> materials_of(std::span<const Body> bodies);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "mpm/transfer.hpp"
+#include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/local_method.hpp"
 #include "scene/perturbation.hpp"
@@ -39,30 +40,35 @@ void allocate(Particles& p, const Material& material) {
     p.variables[static_cast<std::size_t>(v.variable)].assign(p.size, 0.0);
 }
 
-Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material> material,
-               const Scene& scene) {
+Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Material> material) {
+  const BodyDefinition& definition = scene.bodies[index];
+  const std::string place =
+      fmt::format("{}: body '{}'",
+                  scene.at(fmt::format("body.{}.{}", index, scene::shape_names[definition.shape.index()])),
+                  definition.name);
   const auto per_side = static_cast<int>(std::lround(std::sqrt(definition.particles_per_cell)));
   const bool axisymmetric = scene.geometry == Geometry::axisymmetric;
   // Particles are numbered with 32 bits; far beyond, seeding alone would not end.
   constexpr double most = 4.0e9;
   if (const double count = most_seeds(definition.shape, scene.cell, per_side); count > most)
     throw InputError(
-        fmt::format("body '{}': its shape takes up to {:.3g} particles with cells of {} m and {} particles "
+        fmt::format("{}: its shape takes up to {:.3g} particles with cells of {} m and {} particles "
                     "per cell; expected at most {:g}",
-                    definition.name, count, scene.cell, definition.particles_per_cell, most));
-  constexpr double farthest = 2.0e9;  // cells: the grid counts them in 32 bits
-  if (const double found = reach(definition.shape); !(found < farthest * scene.cell))
-    throw InputError(fmt::format(
-        "body '{}': its shape reaches {} m from an axis of coordinates; expected at most {:g} cells of {} m",
-        definition.name, found, farthest, scene.cell));
+                    place, count, scene.cell, definition.particles_per_cell, most));
+  // The grid counts cells in 32 bits; products of lengths must not overflow.
+  const double farthest = std::min(2.0e9 * scene.cell, 1.0e100);
+  if (const double found = reach(definition.shape); !(found < farthest))
+    throw InputError(
+        fmt::format("{}: its shape reaches {:g} m from an axis of coordinates; expected less than {:g} m",
+                    place, found, farthest));
   std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side);
   // A disk about a point of the axis stands for a sphere: what lies at r <= 0 is its mirror image.
   if (axisymmetric) std::erase_if(seeds, [](const Seed& s) { return !(s.position[0] > 0.0); });
   if (seeds.empty())
     throw InputError(fmt::format(
-        "body '{}': its shape holds no particle with cells of {} m and {} particles per cell; expected a "
+        "{}: its shape holds no particle with cells of {} m and {} particles per cell; expected a "
         "larger shape or a smaller space.cell",
-        definition.name, scene.cell, definition.particles_per_cell));
+        place, scene.cell, definition.particles_per_cell));
   Body body{definition.name, std::move(material), {}, 0.5 * scene.cell / per_side};
   Particles& p = body.particles;
   p.size = seeds.size();
@@ -98,6 +104,10 @@ Body make_body(const BodyDefinition& definition, std::shared_ptr<const Material>
 
 }  // namespace
 
+int available_threads() {
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 int threads_for(std::size_t particles, int available) {
   constexpr std::size_t worth_a_thread = 5000;
   const auto useful = static_cast<int>(std::min<std::size_t>(particles / worth_a_thread + 1, 1024));
@@ -110,22 +120,16 @@ System build_system(const Scene& scene, int threads) {
   system.cell = scene.cell;
   system.gravity = scene.gravity;
   system.time = scene.start;
-  for (const BodyDefinition& definition : scene.bodies) {
-    const auto named =
-        std::find_if(scene.materials.begin(), scene.materials.end(),
-                     [&](const MaterialParameters& m) { return m.name == definition.material; });
-    system.bodies.push_back(make_body(definition, make_material(*named, scene.cell), scene));
-  }
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index)
+    system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
   std::vector<mpm::Boundary> boundaries;
   for (const BoundaryDefinition& b : scene.boundaries)
     boundaries.push_back({b.box.min, b.box.max, b.fixed, b.velocity});
   system.grid =
       mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric, std::move(boundaries));
   system.local = make_local_integrator(scene.constitutive);
-  const int available =
-      threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   system.team = std::make_unique<mpm::ThreadTeam>(
-      threads > 0 ? threads : threads_for(system.particle_count(), available));
+      threads > 0 ? threads : threads_for(system.particle_count(), available_threads()));
   system.record.kinetic = mpm::kinetic_energy(system);
   return system;
 }

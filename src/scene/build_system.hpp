@@ -4,6 +4,9 @@
 
 namespace vitrum {
 
+/// Threads that the machine offers, at least 1.
+int available_threads();
+
 /// Threads worth using for a number of particles, at most `available`: small scenes lose more to waiting than
 /// they gain.
 int threads_for(std::size_t particles, int available);

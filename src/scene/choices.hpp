@@ -8,6 +8,8 @@ namespace vitrum::scene {
 
 // Names of enumeration values in scene files, in the order of the enumerations.
 inline constexpr std::array<std::string_view, 2> geometry_names{"axisymmetric", "plane-strain"};
+/// Keys of the shapes, in the order of Shape.
+inline constexpr std::array<std::string_view, 4> shape_names{"box", "disk", "ring", "polygon"};
 inline constexpr std::array<std::string_view, 3> shape_function_names{"linear", "gimp", "bspline2"};
 inline constexpr std::array<std::string_view, 3> grid_method_names{"explicit", "arkode-explicit",
                                                                    "arkode-implicit"};

@@ -38,6 +38,12 @@ std::size_t Diagnostics::override_at(std::string_view path) const {
   return number;
 }
 
+std::string Diagnostics::place(std::string_view origin, const toml::source_position& where) const {
+  const std::size_t number = override_at(origin);
+  return number != 0 ? fmt::format("--set {}", number)
+                     : fmt::format("{}:{}:{}", file_, where.line, where.column);
+}
+
 void Diagnostics::add(const std::string& origin, const toml::source_position& where, std::string_view key,
                       std::string_view fact) {
   const std::size_t number = override_at(origin);

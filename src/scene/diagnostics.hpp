@@ -21,6 +21,10 @@ class Diagnostics {
   /// there.
   void note_override(const std::string& path, std::size_t number);
 
+  /// Where the value or table at `origin` comes from: `FILE:LINE:COLUMN`, `where` when it is the file; or
+  /// `--set N`.
+  std::string place(std::string_view origin, const toml::source_position& where) const;
+
   /// Adds a fault of `key`. The position is that of the value or table at `origin`, `where` when it comes
   /// from the file.
   void add(const std::string& origin, const toml::source_position& where, std::string_view key,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/key_depth.hpp"
 #include "scene/toml_reader.hpp"
 #include "scene/toml_text.hpp"
 
@@ -74,6 +75,7 @@ toml::table parse_value(const Assignment& assignment, const std::string& path) {
                                     assignment.value.empty() ? "nothing" : assignment.value)};
   if (looks_like_text(assignment.value))
     refusal.fact += fmt::format("; quote a string: --set '{}={}'", path, quoted(assignment.value));
+  if (find_deep_key(assignment.value)) throw refusal;
   try {
     toml::table parsed = toml::parse(fmt::format("value = {}", assignment.value), std::string_view{});
     if (parsed.size() == 1) return parsed;  // a line break in VALUE could smuggle in further keys
@@ -178,6 +180,12 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
   if (!assignment) {
     diagnostics.add_override(number, "",
                              fmt::format("found {}, expected KEY=VALUE with a dotted KEY", quoted(text)));
+    return;
+  }
+  if (assignment->keys.size() > most_key_parts) {
+    diagnostics.add_override(
+        number, "",
+        fmt::format("found a key of {} parts, expected the keys of a scene", assignment->keys.size()));
     return;
   }
   const std::string path = joined(assignment->keys, assignment->keys.size());

@@ -17,8 +17,6 @@
 namespace vitrum::scene {
 namespace {
 
-constexpr std::array<std::string_view, 4> shape_names{"box", "disk", "ring", "polygon"};
-
 std::optional<Shape> read_body_box(const TableReader& body) {
   const auto table = body.table("box", keys::box());
   Box box{};
@@ -56,6 +54,11 @@ std::optional<Shape> read_ring(const TableReader& body) {
 std::optional<Shape> read_polygon(const TableReader& body) {
   std::vector<std::vector<double>> rows;
   if (!body.read_rows("polygon", 2, rows)) return std::nullopt;
+  constexpr std::size_t most_vertices = 10'000;  // each edge is compared with each other
+  if (rows.size() > most_vertices) {
+    body.fail("polygon", fmt::format("at most {} vertices", most_vertices));
+    return std::nullopt;
+  }
   Polygon polygon;
   for (const std::vector<double>& row : rows) polygon.vertices.push_back({row[0], row[1]});
   const std::string fault = polygon_fault(polygon.vertices);

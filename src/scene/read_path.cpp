@@ -47,7 +47,13 @@ void read_path(const TableReader& document, PointScene& point) {
       path->fail("strain", fmt::format("{} strains, one for each time", point.time.size()));
   }
   path->read("size", point.size);
-  path->read("samples", point.samples);
+  constexpr double most_rows = 1e8;
+  const auto segments = static_cast<double>(point.time.size()) - 1.0;
+  if (path->read("samples", point.samples) || has_time)
+    if (segments * point.samples > most_rows)
+      path->report("samples",
+                   fmt::format("found {:.3g} rows ({} for each of {} segments), expected at most {:g}",
+                               segments * point.samples, point.samples, segments, most_rows));
 }
 
 }  // namespace vitrum::scene

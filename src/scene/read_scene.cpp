@@ -4,9 +4,9 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
+#include "scene/key_depth.hpp"
 #include "scene/overrides.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
@@ -14,6 +14,9 @@
 
 namespace vitrum {
 namespace {
+
+/// Bytes. Also what ends the reading of devices that never end.
+constexpr std::size_t largest_file = std::size_t{16} << 20;
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
@@ -25,7 +28,12 @@ std::string read_text(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: found a directory, expected a TOML file", file.string()));
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::string text(largest_file + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest_file)
+    throw InputError(
+        fmt::format("{}: found more than {} MB, expected a scene", file.string(), largest_file >> 20));
   if (!stream.is_open() || stream.bad())
     throw FileError(
         fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
@@ -35,6 +43,9 @@ std::string read_text(const std::filesystem::path& file) {
 toml::table parse_document(std::string_view text, std::string_view name,
                            const std::vector<std::string>& overrides, scene::Diagnostics& diagnostics) {
   toml::table document;
+  if (const auto where = scene::find_deep_key(text))
+    throw InputError(fmt::format("{}:{}:{}: found a key of more than {} parts, expected the keys of a scene",
+                                 name, where->line, where->column, scene::most_key_parts));
   try {
     document = toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -45,6 +56,18 @@ toml::table parse_document(std::string_view text, std::string_view name,
   for (std::size_t i = 0; i < overrides.size(); ++i)
     scene::apply_override(document, overrides[i], i + 1, diagnostics);
   return document;
+}
+
+/// Enters where the keys of a table stand, and those of the tables and lists of tables below.
+void note_places(const toml::node& node, const std::string& path, const scene::Diagnostics& diagnostics,
+                 std::map<std::string, std::string>& places) {
+  if (!path.empty()) places[path] = diagnostics.place(path, node.source().begin);
+  if (const toml::table* table = node.as_table())
+    for (const auto& [key, value] : *table)
+      note_places(value, scene::join_path(path, key.str()), diagnostics, places);
+  const toml::array* list = node.as_array();
+  for (std::size_t i = 0; list != nullptr && i < list->size() && (*list)[i].is_table(); ++i)
+    note_places((*list)[i], scene::join_path(path, i), diagnostics, places);
 }
 
 }  // namespace
@@ -67,6 +90,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   read_bodies(document, scene);
   read_boundaries(document, scene);
   diagnostics.throw_if_any();
+  note_places(table, "", diagnostics, scene.places);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -107,6 +108,13 @@ struct Scene {
   std::vector<MaterialParameters> materials;  ///< in the order of the file
   std::string verbatim;                       ///< the file's text, unchanged
   std::vector<std::string> overrides;         ///< the --set arguments, in order
+  /// Where each key stands, by dotted path: "FILE:LINE:COLUMN" or "--set N".
+  std::map<std::string, std::string> places;
+
+  /// How a message about a key begins, `FILE:LINE:COLUMN: key 'a.b'`: where it stands, or the table that
+  /// lacks it.
+  std::string at(const std::string& key) const;
+  const MaterialParameters& material_of(std::size_t body) const;
 };
 
 /// A validated point file (`vitrum point`).

@@ -6,6 +6,7 @@
 #include "analysis/energy_ledger.hpp"
 #include "analysis/failure.hpp"
 #include "app/check_command.hpp"
+#include "app/demands.hpp"
 #include "app/watchdog.hpp"
 #include "output/particle_fields.hpp"
 #include "promises.hpp"
@@ -22,6 +23,8 @@ constexpr double most_particles = 300.0;
 constexpr int most_steps = 3;
 
 bool is_small(const Scene& scene) {
+  const SceneSize size = size_of(scene);
+  demand(size.memory > 0.0, "the memory of a scene is estimated");
   double particles = 0.0;
   for (const BodyDefinition& body : scene.bodies)
     particles += most_seeds(body.shape, scene.cell, static_cast<int>(std::sqrt(body.particles_per_cell)));
@@ -69,7 +72,9 @@ void exercise(const Scene& scene) {
   if (!is_small(scene)) return;
   System system = build_system(scene, 1);
   output::select_fields(scene.output.fields, output::materials_of(system.bodies));
-  (void)app::warnings(scene, system);
+  (void)app::warnings(scene, system, 1);
+  app::require_time(scene, system, app::work_of(scene, system, 1), 1);
+  (void)app::disk_space_of(scene, system, true);
   const std::unique_ptr<GridIntegrator> integrator = make_grid_integrator(scene.integrator, system);
   FewSteps observer(scene, system, *integrator);
   integrator->advance(system, scene.end, observer);

@@ -1,0 +1,152 @@
+#include "app/demands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/machine.hpp"
+#include "output/particle_fields.hpp"
+#include "scene/grid_method.hpp"
+#include "scene/input_error.hpp"
+
+namespace vitrum::app {
+namespace {
+
+/// Evaluations of all particles that a step takes (implicit: at the least; Newton iterations of its stages).
+double evaluations_of_step(const IntegratorDefinition& integrator) {
+  return integrator.method == GridMethod::explicit_steps ? 1.0 : butcher_table(integrator).stages;
+}
+
+/// The key that sets the length of steps.
+std::string step_key(const IntegratorDefinition& i) {
+  if (i.fixed_step && i.method != GridMethod::explicit_steps) return "integrator.fixed_step";
+  if (i.method == GridMethod::arkode_implicit) return "integrator.remap";
+  if (i.method == GridMethod::explicit_steps) return i.step ? "integrator.step" : "integrator.courant";
+  return "space.cell";
+}
+
+/// `value` with the largest unit that it reaches.
+template <std::size_t n>
+std::string with_unit(double value, const std::array<std::pair<double, const char*>, n>& units) {
+  auto unit = units.begin();
+  while (unit + 1 != units.end() && value >= (unit + 1)->first) ++unit;
+  return fmt::format("{:.3g} {}", value / unit->first, unit->second);
+}
+
+/// Outputs or checkpoints at the multiples of an interval, besides those at the ends.
+double multiples(const Scene& scene, const std::optional<double>& interval) {
+  return interval ? std::floor((scene.end - scene.start) / *interval) : 0.0;
+}
+
+double size_on_disk(const std::filesystem::path& file) {
+  std::error_code failure;
+  const std::uintmax_t size = std::filesystem::file_size(file, failure);
+  return failure ? 0.0 : static_cast<double>(size);
+}
+
+}  // namespace
+
+CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
+  switch (integrator.method) {
+    case GridMethod::explicit_steps:
+      return critical_step(system, stability_limit(step_scheme(integrator.scheme)));
+    case GridMethod::arkode_explicit:
+      return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0));
+    case GridMethod::arkode_implicit:
+      return critical_step(system, stability_limit(StepScheme::musl));
+  }
+  return {};
+}
+
+std::optional<double> planned_step(const IntegratorDefinition& integrator, const CriticalStep& critical) {
+  if (integrator.method != GridMethod::explicit_steps) return integrator.fixed_step;
+  return integrator.step ? *integrator.step : *integrator.courant * critical.step;
+}
+
+std::string bytes_text(double bytes) {
+  return with_unit(bytes,
+                   std::array<std::pair<double, const char*>, 6>{
+                       {{1.0, "B"}, {1e3, "kB"}, {1e6, "MB"}, {1e9, "GB"}, {1e12, "TB"}, {1e15, "PB"}}});
+}
+
+std::string duration_text(double seconds) {
+  return with_unit(seconds,
+                   std::array<std::pair<double, const char*>, 5>{
+                       {{1.0, "s"}, {60.0, "min"}, {3600.0, "h"}, {86400.0, "days"}, {31557600.0, "years"}}});
+}
+
+void require_memory(const Scene& scene, const SceneSize& size) {
+  const double available = available_memory();
+  if (size.memory <= available) return;
+  const auto largest = std::max_element(size.particles.begin(), size.particles.end());
+  const bool of_factor = size.factor_memory > 0.5 * size.memory;
+  throw InputError(fmt::format(
+      "{}: found cells of {:g} m, with which the scene has {:.3g} particles (most of them, {:.3g}, in body "
+      "'{}') and "
+      "takes {} of memory{}; available are {}; expected larger cells, fewer particles_per_cell{} or smaller "
+      "bodies",
+      scene.at("space.cell"), scene.cell, size.all_particles, *largest,
+      scene.bodies[static_cast<std::size_t>(largest - size.particles.begin())].name, bytes_text(size.memory),
+      of_factor ? fmt::format(", {} of it for a factorised matrix", bytes_text(size.factor_memory)) : "",
+      bytes_text(available),
+      of_factor ? ", integrator.linear_solver = \"gmres\" with preconditioner = \"diagonal\"," : ""));
+}
+
+Work work_of(const Scene& scene, const System& system, int threads) {
+  const IntegratorDefinition& integrator = scene.integrator;
+  const CriticalStep critical = critical_step_of(integrator, system);
+  const std::optional<double> step = planned_step(integrator, critical);
+  const double longest =
+      step.value_or(integrator.method == GridMethod::arkode_implicit ? integrator.remap : critical.step);
+  Work work;
+  work.steps = std::max(1.0, std::ceil((scene.end - scene.start) / longest - 1e-6));
+  work.is_planned = step.has_value();
+  work.seconds = work.steps * evaluations_of_step(integrator) * static_cast<double>(system.particle_count()) /
+                 (particle_steps_a_second * threads);
+  return work;
+}
+
+void require_time(const Scene& scene, const System& system, const Work& work, int threads) {
+  if (work.seconds <= longest_run) return;
+  throw InputError(
+      fmt::format("{}: found {}{:.3g} steps of {} particles, which take about {} on {} thread{} (at {:g} "
+                  "particle-steps a second "
+                  "and thread); expected less than a year: longer steps, larger cells, or a nearer time.end",
+                  scene.at(step_key(scene.integrator)), work.is_planned ? "" : "at least ", work.steps,
+                  system.particle_count(), duration_text(work.seconds), threads, threads == 1 ? "" : "s",
+                  particle_steps_a_second));
+}
+
+double disk_space_of(const Scene& scene, const System& system, bool with_fields) {
+  const std::vector<const Material*> materials = output::materials_of(system.bodies);
+  const auto particles = static_cast<double>(system.particle_count());
+  constexpr double of_dataset = 2000.0, of_series = 30.0 * 8.0;  // structure of result.h5 and result.xdmf
+  double of_output = of_dataset + of_series, of_checkpoint = 0.0;
+  if (with_fields)
+    for (const std::string& field : output::select_fields(scene.output.fields, materials))
+      of_output += of_dataset + 8.0 * particles * static_cast<double>(output::components_of(field));
+  for (const Body& body : system.bodies)
+    of_checkpoint += static_cast<double>(body.particles.size) *
+                     (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->variables().size())));
+  const double outputs = multiples(scene, scene.output.every) + (scene.output.every ? 2.0 : 1.0);
+  // Of each file there are two while it is renewed.
+  return 2.0 *
+         (outputs * of_output + 16.0 * particles + (scene.output.checkpoint_every ? of_checkpoint : 0.0));
+}
+
+void require_disk(const Scene& scene, double bytes, const std::filesystem::path& folder) {
+  double available = available_disk(folder);
+  for (const char* name : {"result.h5", ".result.h5.next", "checkpoint.h5", ".checkpoint.h5.next"})
+    available += size_on_disk(folder / name);
+  if (bytes <= available) return;
+  const double outputs = multiples(scene, scene.output.every) + 2.0;
+  throw InputError(fmt::format(
+      "{}: found {:.3g} outputs, whose files take {}; available in {} are {}; expected a longer interval, "
+      "fewer "
+      "output.fields, or --no-fields",
+      scene.at("output.every"), outputs, bytes_text(bytes), folder.string(), bytes_text(available)));
+}
+
+}  // namespace vitrum::app
