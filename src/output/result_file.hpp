@@ -62,7 +62,7 @@ class ResultFile {
  private:
   ResultFile(const std::filesystem::path& directory, Publishing publishing);
   void publish();
-  File open_shadow(std::uint64_t frame_bytes) const;
+  File open_shadow() const;
 
   std::filesystem::path path_, shadow_;
   Publishing publishing_;
