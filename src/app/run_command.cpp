@@ -1,10 +1,9 @@
 #include "app/run_command.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
 #include "app/check_command.hpp"
+#include "app/messages.hpp"
+#include "app/run_folder.hpp"
+#include "app/signals.hpp"
 #include "app/simulation.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
@@ -13,20 +12,13 @@
 namespace vitrum::app {
 
 int run_scene(const RunOptions& options) {
+  survive_failing_writes();
   const Scene scene = read_scene(options.scene, options.overrides);
   System system = build_system(scene, options.threads);
-  for (const std::string& w : warnings(scene, system)) fmt::print(stderr, "warning: {}\n", w);
-
-  const std::filesystem::path directory =
-      options.directory.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
-                                : std::filesystem::path(options.directory);
+  for (const std::string& w : warnings(scene, system)) tell("warning: {}\n", w);
   // Before the folder is made: wrong input leaves no trace.
   output::select_fields(scene.output.fields, output::materials_of(system.bodies));
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) throw FileError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
-
-  Simulation simulation(scene, std::move(system), options, directory);
+  Simulation simulation(scene, std::move(system), options, claim_folder(options));
   return simulation.run();
 }
 

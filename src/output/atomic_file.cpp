@@ -58,4 +58,10 @@ bool exchange_with(const std::filesystem::path& path, const std::filesystem::pat
   return true;
 }
 
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw_file_error(path, "remove", error.value());
+}
+
 }  // namespace vitrum::output

@@ -27,4 +27,7 @@ void replace_with(const std::filesystem::path& path, const std::filesystem::path
 /// otherwise.
 bool exchange_with(const std::filesystem::path& path, const std::filesystem::path& target);
 
+/// Removes the file if there is one. Throws FileError.
+void remove_file(const std::filesystem::path& path);
+
 }  // namespace vitrum::output

@@ -22,6 +22,11 @@ Descriptor::Descriptor(const std::filesystem::path& path, int flags)
   if (number_ < 0) fail("open", errno);
 }
 
+Descriptor::Descriptor(const Descriptor& folder, const std::filesystem::path& name, int flags)
+    : path_(folder.path_ / name), number_(openat(folder.number_, name.c_str(), flags | O_CLOEXEC, 0666)) {
+  if (number_ < 0) fail("open", errno);
+}
+
 Descriptor::Descriptor(Descriptor&& other) noexcept
     : path_(std::move(other.path_)), number_(std::exchange(other.number_, -1)) {}
 

@@ -10,6 +10,8 @@ class Descriptor {
  public:
   /// flags: of open(2); new files may be read and written by whom the umask allows.
   Descriptor(const std::filesystem::path& path, int flags);
+  /// `name` in the open folder `folder`, wherever that has been moved to.
+  Descriptor(const Descriptor& folder, const std::filesystem::path& name, int flags);
   Descriptor(Descriptor&& other) noexcept;
   Descriptor& operator=(Descriptor&& other) noexcept;
   ~Descriptor();

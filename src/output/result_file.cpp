@@ -37,7 +37,7 @@ ResultFile::ResultFile(const std::filesystem::path& directory, Publishing publis
 }
 
 ResultFile::~ResultFile() {
-  if (shadow_.empty()) return;  // moved from
+  if (shadow_.empty()) return;  // moved from, or abandoned
   std::error_code missing;
   std::filesystem::remove(shadow_, missing);
 }
