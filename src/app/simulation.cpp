@@ -132,7 +132,7 @@ std::string Simulation::keep_failed_point(const PointFailure& failure) const {
 }
 
 bool Simulation::step_done(System& system, double step) {
-  last_step_ = step;
+  state_.last_step = step;
   ledger_.book(system);
   failure_.observe(system, step);
   failed_ = watchdog_.look(system, ledger_, step);

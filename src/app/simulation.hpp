@@ -70,7 +70,6 @@ class Simulation final : private StepObserver {
   RunState state_;
   std::optional<std::string> failed_;
   std::optional<std::string> unwritten_;  ///< why a row of energy.csv could not be written
-  double last_step_ = 0.0;
 };
 
 }  // namespace vitrum::app

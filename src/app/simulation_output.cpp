@@ -45,7 +45,7 @@ std::vector<output::SeriesValue> Simulation::series() const {
       {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none",
        f.damage_front_radius.value_or(none)},
       {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)},
-      {"step_size", "s", "last step", last_step_},
+      {"step_size", "s", "last step", state_.last_step},
       {"error_estimate", "1",
        "accumulated local error estimates of all unknowns (root mean square, relative to their scales, "
        "summed over "

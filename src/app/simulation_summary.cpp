@@ -98,7 +98,7 @@ void Simulation::warn_of_energy(const output::RunSummary& s) const {
          s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
              ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
                "particles a cell, or integrator.method = \"arkode-explicit\""
-             : integrator_->advice(system_, last_step_));
+             : integrator_->advice(system_, state_.last_step));
 }
 
 output::RunSummary Simulation::summary(output::RunStatus status, const std::string& message) const {
