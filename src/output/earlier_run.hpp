@@ -6,8 +6,8 @@
 namespace vitrum::output {
 
 /// What an earlier run left in `folder` that is worth keeping, in words; empty: nothing. Worth keeping are a
-/// checkpoint, a result with at least one output, and a summary unless it tells of a failure before the first
-/// output; also files under the names that a run uses whose content is not a run's. A run that was killed or
+/// checkpoint, a result with at least one output, and a summary unless it tells of a failure; also files
+/// under these names, and under that of energy.csv, whose content is not a run's. So a run that was killed or
 /// failed before its first output leaves nothing worth keeping.
 std::vector<std::string> traces_of_run(const std::filesystem::path& folder);
 

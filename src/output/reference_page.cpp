@@ -29,7 +29,8 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   of them is complete, either in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
 - `result.h5` therefore always holds the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
   read while the run goes on; a program that has it open keeps the version that it opened.
-- A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
+- A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line. After a power cut (not
+  after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
 - Truncated and foreign files are refused with a message. All that `result.h5` holds carries checksums: HDF5's own for its structure
   (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
@@ -42,9 +43,9 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
 - A run holds its folder while it is under way. Another one into it, with `--resume` or `--force` too, ends with status 2 and touches nothing.
   The lock (`flock` on `.vitrum.lock`) goes with the process, however that ends. A file system without locks is warned of.
 - A folder that holds an earlier run is refused with status 2, unless `--resume` continues or `--force` replaces that run. It holds one when there
-  is a checkpoint, a result with at least one output, or a summary; not when the run was killed or failed before its first output.
-  Files of these names that no run wrote count as well; files of other names are neither looked at nor touched. The reason: a run may
-  have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
+  is a checkpoint, a result with at least one output, or a summary that does not tell of a failure; so not when the run was killed or
+  failed before its first output. Files of a run's names that no run wrote count as well; files of other names are neither looked at
+  nor touched. The reason: a run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
 - `--resume` without a checkpoint is refused with status 4. It takes the scene and the `--set` values of the run that it continues.
 - A folder that is moved, removed or replaced during a run ends that run with status 4: its path may lead to another run's files.
 

@@ -41,8 +41,8 @@ class WritingCalls(CommandLineTest):
     def chosen_calls(self, begun=None):
         """Numbers of the calls to try, from 1."""
         names = self.names_of_calls(begun)
-        frequent = {name for name in names if names.count(name) > 60}
-        return [n for n, name in enumerate(names, 1) if name not in frequent or n % stride == 1 or n == len(names)]
+        frequent = {name for name in names if names.count(name) > 20}
+        return [n for n, name in enumerate(names, 1) if name not in frequent or (n - 1) % stride == 0 or n == len(names)]
 
     def fail_calls(self, reason, **fault):
         """Lets the chosen calls fail; folder and message of each run that could not do without."""

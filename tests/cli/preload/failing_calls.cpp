@@ -2,6 +2,7 @@
 // it.
 //   FAULT_CALL=N      the N-th such call, from 1; standard streams do not count
 //   FAULT=KILL        kill -9; a write is done by half before
+//   FAULT=STALL       the call takes for ever
 //   FAULT=NUMBER      the call fails with this errno
 //   FAULT_LASTS=1     so do all later calls that take space
 //   FAULT_LOG=FILE    the names of all such calls, a line each, are left there at the end
@@ -17,7 +18,6 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
 namespace {
@@ -28,9 +28,9 @@ const char* setting(const char* name, const char* otherwise) {
 }
 
 const long chosen = std::atol(setting("FAULT_CALL", "0"));
-const bool kills = std::strcmp(setting("FAULT", ""), "KILL") == 0,
-           lasts = *setting("FAULT_LASTS", "") != '\0';
-const int reason = std::atoi(setting("FAULT", "0"));
+const std::string fault = setting("FAULT", "");
+const bool kills = fault == "KILL", stalls = fault == "STALL", lasts = *setting("FAULT_LASTS", "") != '\0';
+const int reason = std::atoi(fault.c_str());
 std::atomic<long> calls = 0;
 
 /// Names of the calls so far; leaves them in FAULT_LOG when the process ends.
@@ -41,8 +41,7 @@ struct Log {
   }
 } log_;
 
-[[noreturn]] void die() {
-  kill(getpid(), SIGKILL);
+[[noreturn]] void wait_for_ever() {
   for (;;) pause();
 }
 
@@ -54,8 +53,9 @@ bool fails(const char* name, bool takes_space, Amid&& amid) {
   if (chosen == 0 || call < chosen || (call > chosen && !(lasts && takes_space))) return false;
   if (kills) {
     amid();
-    die();
+    kill(getpid(), SIGKILL);
   }
+  if (kills || stalls) wait_for_ever();
   errno = reason;
   return true;
 }
