@@ -76,15 +76,15 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
 }
 
 File ResultFile::open_shadow() const {
-  if (std::filesystem::exists(shadow_)) {
+  std::error_code failure;
+  if (std::filesystem::exists(shadow_, failure)) {
     try {
       return File::open_to_write(shadow_);
     } catch (const Hdf5Error&) {
       // Another program still reads the file that was result.h5 one output ago: leave it to that program.
-      std::filesystem::remove(shadow_);
+      remove_file(shadow_);
     }
   }
-  std::error_code failure;
   std::filesystem::copy_file(path_, shadow_, failure);
   if (failure)
     throw FileError(
