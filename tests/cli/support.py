@@ -69,6 +69,28 @@ class CommandLineTest(unittest.TestCase):
         self.addCleanup(process.kill)
         return process
 
+    def run_on_terminal(self, *arguments, **options):
+        """What the program writes on standard error when that is a terminal."""
+        try:
+            ours, theirs = os.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminals here: {error}")
+        shown = b""
+        try:
+            self.vitrum(*arguments, stderr=theirs, **options)
+        finally:
+            os.close(theirs)
+            while True:
+                try:
+                    piece = os.read(ours, 65536)
+                except OSError:  # the terminal's other end is closed and all is read
+                    break
+                if not piece:
+                    break
+                shown += piece
+            os.close(ours)
+        return shown.decode()
+
     def wait_for_outputs(self, process, count):
         """Until the program has told of so many outputs; its lines."""
         lines = []
