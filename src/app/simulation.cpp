@@ -80,7 +80,7 @@ int Simulation::run_to_end() {
 /// Something could not be written. All that was computed so far is in memory: with the space of the result's
 /// shadow given back, a checkpoint may still find room.
 int Simulation::give_up(const std::string& cause) {
-  folder_.in_place() ? result_->close() : result_->abandon();
+  folder_.holds() ? result_->close() : result_->abandon();
   std::string message = fmt::format("t = {:.6e} s: {}", system_.time, cause);
   try {
     write_checkpoint();
@@ -120,10 +120,10 @@ bool Simulation::advance_to(double target) {
 }
 
 /// Writes the increment that failed to a file; says what to do with it.
-std::string Simulation::keep_failed_point(const PointFailure& failure) const {
+std::string Simulation::keep_failed_point(const PointFailure& failure) {
   const std::filesystem::path file = directory_ / "failed_point.toml";
   try {
-    require_in_place();
+    require_folder();
     output::write_text_atomically(file, failed_point(scene_, system_, failure));
     return fmt::format("`vitrum point {}` replays it", shell_quoted(file.string()));
   } catch (const FileError& error) {

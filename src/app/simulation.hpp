@@ -37,8 +37,8 @@ class Simulation final : private StepObserver {
   int give_up(const std::string& cause);
   bool ended() const;
   bool advance_to(double target);
-  std::string keep_failed_point(const PointFailure& failure) const;
-  void require_in_place() const;
+  std::string keep_failed_point(const PointFailure& failure);
+  void require_folder();
   void write_output();
   void write_checkpoint();
   void write_energy_row();

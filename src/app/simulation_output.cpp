@@ -65,16 +65,16 @@ std::vector<output::SeriesValue> Simulation::series() const {
   };
 }
 
-void Simulation::require_in_place() const {
-  if (!folder_.in_place())
+void Simulation::require_folder() {
+  if (!folder_.holds())
     throw FileError(
-        fmt::format("{}: no longer leads to the folder that this run began in: it was moved, removed or "
-                    "replaced during the run",
+        fmt::format("{}: is no longer this run's folder: it was moved, removed, cleared or taken by "
+                    "another run",
                     directory_.string()));
 }
 
 void Simulation::write_output() {
-  require_in_place();
+  require_folder();
   output::OutputFrame frame{system_.time, system_.step_index, {}, series()};
   if (!fields_.empty()) frame.fields = output::particle_fields(system_.bodies, fields_, scene_.geometry);
   result_->append(frame);
@@ -84,7 +84,7 @@ void Simulation::write_output() {
 }
 
 void Simulation::write_checkpoint() {
-  require_in_place();
+  require_folder();
   output::Checkpoint checkpoint{system_.time,
                                 system_.step_index,
                                 provenance_.scene_sha256,

@@ -66,7 +66,7 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
   progress_.finish();
   const output::RunSummary s = summary(status, message);
   try {
-    require_in_place();
+    require_folder();
     result_->close();
     output::write_summary(directory_ / "summary.json", s);
   } catch (const FileError& error) {

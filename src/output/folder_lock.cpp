@@ -32,6 +32,10 @@ FolderLock::FolderLock(std::filesystem::path folder)
     : folder_(std::move(folder)),
       place_(folder_, O_RDONLY | O_DIRECTORY),
       file_(place_, file_name, O_RDWR | O_CREAT) {
+  acquire();
+}
+
+void FolderLock::acquire() {
   // Its holder may have removed the file between our opening and our locking it: then the lock is worth
   // nothing.
   while (!take()) file_ = Descriptor(place_, file_name, O_RDWR | O_CREAT);
@@ -56,24 +60,34 @@ bool FolderLock::take() {
     if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP || errno == EINVAL) return true;
     throw_file_error(folder_ / file_name, "lock", errno);
   }
-  struct stat ours {
-  }, theirs{};
-  if (fstat(file_.number(), &ours) != 0 || fstatat(place_.number(), file_name, &theirs, 0) != 0 ||
-      !same(ours, theirs))
-    return false;
-  locked_ = true;
-  return true;
+  locked_ = file_in_place();
+  return locked_;
+}
+
+bool FolderLock::file_in_place() const {
+  struct stat ours = {}, there = {};
+  return fstat(file_.number(), &ours) == 0 && fstatat(place_.number(), file_name, &there, 0) == 0 &&
+         same(ours, there);
 }
 
 FolderLock::~FolderLock() {
   // By the folder that was locked, not by its path, which may lead elsewhere by now.
-  if (place_.number() >= 0 && file_.number() >= 0) unlinkat(place_.number(), file_name, 0);
+  if (place_.number() >= 0 && file_.number() >= 0 && !lost_ && file_in_place())
+    unlinkat(place_.number(), file_name, 0);
 }
 
-bool FolderLock::in_place() const {
-  struct stat ours {
-  }, there{};
-  return fstat(place_.number(), &ours) == 0 && stat(folder_.c_str(), &there) == 0 && same(ours, there);
+bool FolderLock::holds() {
+  struct stat ours = {}, there = {};
+  if (fstat(place_.number(), &ours) != 0 || stat(folder_.c_str(), &there) != 0 || !same(ours, there))
+    return false;
+  if (!locked_ || file_in_place()) return !lost_;
+  try {
+    file_ = Descriptor(place_, file_name, O_RDWR | O_CREAT);
+    acquire();
+  } catch (const std::runtime_error&) {  // another holds it, or it cannot be made
+    lost_ = true;
+  }
+  return !lost_;
 }
 
 }  // namespace vitrum::output

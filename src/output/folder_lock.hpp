@@ -21,17 +21,20 @@ class FolderLock {
   const std::filesystem::path& folder() const { return folder_; }
   /// False where the file system has no locks.
   bool locked() const { return locked_; }
-  /// Whether folder() still leads to the folder that was locked. It does not when that was moved, removed or
-  /// replaced: then the path may belong to another run.
-  bool in_place() const;
+  /// Whether folder() still leads to the folder that was locked, and no other process has locked it since.
+  /// Either may happen when somebody moves, removes or clears the folder: then its files may belong to
+  /// another run. A lock file that has only been removed is made again.
+  bool holds();
 
  private:
+  void acquire();
   bool take();
+  bool file_in_place() const;
 
   std::filesystem::path folder_;
   Descriptor place_;  ///< keeps the folder's identity from being used again
   Descriptor file_;
-  bool locked_ = false;
+  bool locked_ = false, lost_ = false;
 };
 
 }  // namespace vitrum::output

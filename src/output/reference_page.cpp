@@ -47,7 +47,7 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   failed before its first output. Files of a run's names that no run wrote count as well; files of other names are neither looked at
   nor touched. The reason: a run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
 - `--resume` without a checkpoint is refused with status 4. It takes the scene and the `--set` values of the run that it continues.
-- A folder that is moved, removed or replaced during a run ends that run with status 4: its path may lead to another run's files.
+- A folder that is moved, removed, or cleared and taken by another run ends the run with status 4, which leaves the other's files alone.
 
 ## When something cannot be written
 

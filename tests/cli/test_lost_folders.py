@@ -1,5 +1,6 @@
 """Folders and files that go while a run needs them."""
 import shutil
+import signal
 import unittest
 
 from support import CommandLineTest, impact, overrides
@@ -25,12 +26,12 @@ class LostFolders(CommandLineTest):
 
     def test_removed(self):
         shutil.rmtree(self.out)
-        self.assert_ends("no longer leads to the folder that this run began in")
+        self.assert_ends("is no longer this run's folder: it was moved, removed, cleared or taken by another run")
         self.assertFalse(self.out.exists())
 
     def test_moved_and_resumed_where_it_is(self):
         moved = self.out.rename(self.folder / "moved")
-        self.assert_ends("no longer leads to")
+        self.assert_ends("is no longer this run's folder")
         self.assertGreaterEqual(self.assert_completed_outputs(moved, self.whole), 4)
         self.recover(moved, *settings)
         self.assert_same_results(moved, self.whole)
@@ -39,10 +40,33 @@ class LostFolders(CommandLineTest):
         """The first run touches nothing of the second's."""
         self.out.rename(self.folder / "moved")
         other = self.start("run", impact, "--out", self.out, *settings)
-        self.assert_ends("no longer leads to")
+        self.assert_ends("is no longer this run's folder")
         other.stderr.read()
         self.assertEqual(other.wait(), 0)
         self.assert_same_results(self.out, self.whole)
+
+    def test_cleared_and_taken(self):
+        """By a script that removes all files of a folder, hidden ones, too, before it runs into it again."""
+        self.process.send_signal(signal.SIGSTOP)
+        for path in self.out.iterdir():
+            path.unlink()
+        other = self.start("run", impact, "--out", self.out, *settings)
+        self.wait_for_outputs(other, 2)
+        self.process.send_signal(signal.SIGCONT)
+        self.assert_ends("is no longer this run's folder")
+        other.stderr.read()
+        self.assertEqual(other.wait(), 0)
+        self.assert_same_results(self.out, self.whole)
+
+    def test_lock_removed(self):
+        """By somebody who tidies: the run takes it again, and keeps others out again."""
+        (self.out / ".vitrum.lock").unlink()
+        self.wait_for_outputs(self.process, 2)
+        self.assertTrue((self.out / ".vitrum.lock").exists())
+        self.process.stderr.read()
+        self.assertEqual(self.process.wait(), 0)
+        self.assert_same_results(self.out, self.whole)
+        self.assertFalse((self.out / ".vitrum.lock").exists())
 
     def test_result_removed(self):
         for path in [self.out / "result.h5", self.out / ".result.h5.next"]:
