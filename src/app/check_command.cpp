@@ -9,12 +9,14 @@
 #include "app/command_line.hpp"
 #include "app/demands.hpp"
 #include "app/machine.hpp"
+#include "app/messages.hpp"
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/error_scales.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/toml_text.hpp"
 #include "scene/write_scene.hpp"
 
 namespace vitrum::app {
@@ -60,6 +62,36 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
           {"steps", work.is_planned ? json(work.steps) : json(nullptr)},
           {"least_steps", work.steps},
           {"scales", scales_of(scene.integrator, system)}};
+}
+
+/// The facts as comments of a TOML file.
+std::string readable(const std::string& file, const Scene& scene, const System& system,
+                     const nlohmann::ordered_json& facts, const SceneSize& size, const Work& work,
+                     int threads) {
+  std::string text = fmt::format("# {} is valid\n", scene::single_line(file));
+  for (const auto& [name, body] : facts["bodies"].items())
+    text += fmt::format("# body '{}': {} particles, {:.6g} {}, material '{}', wave speed {:.5g} m/s\n", name,
+                        body["particles"].get<std::size_t>(), body["mass"].get<double>(),
+                        system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
+                        body["wave_speed"].get<double>());
+  text += fmt::format("# {} particles; a run takes about {} of memory ({} available) and {} of disk space\n",
+                      system.particle_count(), bytes_text(size.memory), bytes_text(available_memory()),
+                      bytes_text(disk_space_of(scene, system, true)));
+  text += fmt::format("# {}about {} on {} thread{}, at {:g} particle-steps a second and thread\n",
+                      work.is_planned ? "" : "at least ", duration_text(work.seconds), threads,
+                      threads == 1 ? "" : "s", particle_steps_a_second);
+  text += fmt::format(
+      "# critical step {}{:.6g} s (body '{}')\n",
+      scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",
+      facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>());
+  if (facts["step"].is_number())
+    text += fmt::format("# step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["step"].get<double>(),
+                        facts["step_to_critical"].get<double>(), facts["steps"].get<double>());
+  if (facts["scales"].is_object())
+    text += fmt::format("# tolerances relative to: velocity {:.4g} m/s, strain {:.4g}, length {:.4g} m\n",
+                        facts["scales"]["velocity"].get<double>(), facts["scales"]["strain"].get<double>(),
+                        facts["scales"]["length"].get<double>());
+  return text;
 }
 
 }  // namespace
@@ -125,34 +157,11 @@ int check_scene(const CheckOptions& options) {
   if (options.json) {
     facts["warnings"] = warned;
     facts["resolved"] = resolved_toml(scene);
-    fmt::print("{}\n", facts.dump(2));
+    show(facts.dump(2) + '\n');
     return exit_done;
   }
-  for (const std::string& w : warned) fmt::print(stderr, "warning: {}\n", w);
-  fmt::print("# {} is valid\n", options.scene);
-  for (const auto& [name, body] : facts["bodies"].items())
-    fmt::print("# body '{}': {} particles, {:.6g} {}, material '{}', wave speed {:.5g} m/s\n", name,
-               body["particles"].get<std::size_t>(), body["mass"].get<double>(),
-               system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
-               body["wave_speed"].get<double>());
-  fmt::print("# {} particles; a run takes about {} of memory ({} available) and {} of disk space\n",
-             system.particle_count(), bytes_text(size.memory), bytes_text(available_memory()),
-             bytes_text(disk_space_of(scene, system, true)));
-  fmt::print("# {}about {} on {} thread{}, at {:g} particle-steps a second and thread\n",
-             work.is_planned ? "" : "at least ", duration_text(work.seconds), threads,
-             threads == 1 ? "" : "s", particle_steps_a_second);
-  fmt::print(
-      "# critical step {}{:.6g} s (body '{}')\n",
-      scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",
-      facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>());
-  if (facts["step"].is_number())
-    fmt::print("# step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["step"].get<double>(),
-               facts["step_to_critical"].get<double>(), facts["steps"].get<double>());
-  if (facts["scales"].is_object())
-    fmt::print("# tolerances relative to: velocity {:.4g} m/s, strain {:.4g}, length {:.4g} m\n",
-               facts["scales"]["velocity"].get<double>(), facts["scales"]["strain"].get<double>(),
-               facts["scales"]["length"].get<double>());
-  fmt::print("\n{}", resolved_toml(scene));
+  for (const std::string& w : warned) tell("warning: {}\n", w);
+  show(readable(options.scene, scene, system, facts, size, work, threads) + '\n' + resolved_toml(scene));
   return exit_done;
 }
 

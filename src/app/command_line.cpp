@@ -1,17 +1,13 @@
 #include "app/command_line.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <new>
 
 #include "app/check_command.hpp"
+#include "app/messages.hpp"
 #include "app/point_command.hpp"
 #include "app/run_command.hpp"
 #include "mpm/computation_error.hpp"
@@ -21,6 +17,7 @@
 #include "output/reference_page.hpp"
 #include "scene/input_error.hpp"
 #include "scene/reference_page.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -41,9 +38,13 @@ constexpr const char* out_of_memory =
   std::abort();
 }
 
-/// One fact a line on standard error.
+/// One fact a line on standard error: names of files may hold ends of lines.
+void complain(std::string_view message) {
+  tell("error: {}\n", scene::single_line(message));
+}
+
 int complain(const std::exception& error, int status) {
-  fmt::print(stderr, "error: {}\n", error.what());
+  complain(error.what());
   return status;
 }
 
@@ -52,34 +53,23 @@ int guarded(Command&& command) {
   try {
     return command();
   } catch (const InputError& error) {
-    for (const std::string& message : error.messages()) fmt::print(stderr, "error: {}\n", message);
+    for (const std::string& message : error.messages()) complain(message);
     return exit_input;
   } catch (const ComputationError& error) {
     return complain(error, exit_computation);
   } catch (const FileError& error) {
     return complain(error, exit_file);
   } catch (const std::bad_alloc&) {
-    std::fputs(out_of_memory, stderr);  // fmt might want memory
+    std::fputs(out_of_memory, stderr);  // formatting might want memory
     return exit_computation;
   } catch (const std::exception& error) {
     return complain(error, exit_computation);
   }
 }
 
-/// An argument as a shell takes it.
-std::string quoted(const std::string& argument) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_-+=./:,@%", c) != nullptr;
-  };
-  if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
-  std::string text = "'";
-  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 std::string whole_command(int argc, char** argv) {
   std::string text;
-  for (int i = 0; i < argc; ++i) text += (i ? " " : "") + quoted(argv[i]);
+  for (int i = 0; i < argc; ++i) text += (i ? " " : "") + shell_quoted(argv[i]);
   return text;
 }
 
@@ -104,7 +94,8 @@ int obey(int argc, char** argv) {
   run_command.add_option("--out", run.directory, "folder for the results (default: out/NAME-OF-SCENE)");
   run_command.add_option("--threads", run.threads, "threads; 0 chooses by the number of particles")
       ->check(CLI::Range(0, 1024));
-  run_command.add_flag("--resume", run.resume, "continue from DIR/checkpoint.h5");
+  CLI::Option* resume = run_command.add_flag("--resume", run.resume, "continue from DIR/checkpoint.h5");
+  run_command.add_flag("--force", run.force, "replace what an earlier run left in DIR")->excludes(resume);
   run_command.add_flag("--no-fields", run.no_fields, "write no particle data, only series and summary");
   run_command.add_flag("--quiet", run.quiet, "print only warnings and errors");
 
@@ -143,30 +134,25 @@ int obey(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    fmt::print(stderr, "error: {} (see vitrum --help)\n", error.what());
+    complain(fmt::format("{} (see vitrum --help)", error.what()));
     return exit_input;
-  }
-  if (version) {
-    fmt::print("{}", output::version_text());
-    return exit_done;
   }
   if (run_command) return run_scene(run);
   if (check_command) return check_scene(check);
   if (point_command) return drive_point(point);
-  if (info_command) {
-    fmt::print("{}", output::describe_result(result, json));
-    return exit_done;
+  if (version)
+    show(output::version_text());
+  else if (info_command)
+    show(output::describe_result(result, json));
+  else if (compare_command)
+    show(output::comparison_text(output::compare_results(compared[0], compared[1]), json));
+  else if (reference_command)
+    show(result_page ? output::result_reference() : scene_reference());
+  else {
+    show(program.help());
+    return exit_input;
   }
-  if (compare_command) {
-    fmt::print("{}", output::comparison_text(output::compare_results(compared[0], compared[1]), json));
-    return exit_done;
-  }
-  if (reference_command) {
-    fmt::print("{}", result_page ? output::result_reference() : scene_reference());
-    return exit_done;
-  }
-  fmt::print("{}", program.help());
-  return exit_input;
+  return exit_done;
 }
 
 }  // namespace

@@ -1,16 +1,18 @@
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-
 #include "app/command_line.hpp"
+#include "app/messages.hpp"
+#include "scene/input_error.hpp"
 
 int main(int argc, char** argv) {
-  const int status = vitrum::app::command_line(argc, argv);
-  // What was printed reaches its file only now: the disk may be full.
-  if ((std::ferror(stdout) == 0 && std::fflush(stdout) == 0) || status != vitrum::app::exit_done)
-    return status;
-  fmt::print(stderr, "error: standard output: cannot be written: {}\n", std::strerror(errno));
-  return vitrum::app::exit_file;
+  using namespace vitrum::app;
+  open_standard_streams();
+  const int status = command_line(argc, argv);
+  try {
+    show("");  // some of what was printed reaches its file only now: the disk may be full
+  } catch (const vitrum::FileError& error) {
+    if (status == exit_done) {
+      tell("error: {}\n", error.what());
+      return exit_file;
+    }
+  }
+  return status;
 }

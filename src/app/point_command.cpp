@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/command_line.hpp"
+#include "app/messages.hpp"
 #include "app/point_path.hpp"
 #include "scene/read_scene.hpp"
 
@@ -61,12 +62,11 @@ int drive_point(const PointOptions& options) {
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);
   Csv csv(options.out);
   csv.line(header(*material));
-  follow_path(
-      scene, *material,
-      {[&](double time, const SymmetricTensor& strain, const PointState& state) {
-         csv.line(row(*material, time, strain, state));
-       },
-       [](EventKind kind, double time) { fmt::print(stderr, "event {} t={}\n", event_name(kind), time); }});
+  follow_path(scene, *material,
+              {[&](double time, const SymmetricTensor& strain, const PointState& state) {
+                 csv.line(row(*material, time, strain, state));
+               },
+               [](EventKind kind, double time) { tell("event {} t={}\n", event_name(kind), time); }});
   csv.finish();
   return exit_done;
 }

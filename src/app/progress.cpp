@@ -1,11 +1,11 @@
 #include "app/progress.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <string>
+
+#include "app/messages.hpp"
 
 namespace vitrum::app {
 
@@ -32,25 +32,21 @@ void Progress::step(double time, double step, const IntegratorCounters& c) {
   const auto filled = static_cast<std::size_t>(part * 30.0);
   constexpr std::array limits{"fixed step", "stability", "accuracy", "output", "remap"};
   const char* limit = limits[static_cast<std::size_t>(c.last_limit)];
-  fmt::print(
-      stderr,
+  tell(
       "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",
       std::string(std::min<std::size_t>(filled, 30), '#'), 100.0 * part, 1e6 * time, 1e6 * step, c.steps,
       c.rejected, limit, left);
-  std::fflush(stderr);
 }
 
 void Progress::output(double time, const IntegratorCounters& c, const EnergyTotals& e) {
   if (quiet_ || terminal_) return;
-  fmt::print(
-      stderr,
-      "t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n",
-      1e6 * time, c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_,
-      100.0 * e.relative_residual());
+  tell("t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n",
+       1e6 * time, c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_,
+       100.0 * e.relative_residual());
 }
 
 void Progress::finish() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) tell("\r\033[K");
   drawn_ = false;
 }
 

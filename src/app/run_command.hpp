@@ -9,7 +9,7 @@ struct RunOptions {
   std::vector<std::string> overrides;
   std::string directory;  ///< empty: out/NAME-OF-SCENE
   int threads = 0;        ///< 0: by the number of particles
-  bool resume = false, no_fields = false, quiet = false;
+  bool resume = false, force = false, no_fields = false, quiet = false;
   std::string command;  ///< as typed
 };
 

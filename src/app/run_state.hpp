@@ -22,6 +22,7 @@ struct RunState {
   std::int64_t energy_step = 0;   ///< time step of the last of them
   std::int64_t result_steps = 0;  ///< steps in result.h5
   std::int64_t evaluations = 0, events = 0;
+  double last_step = 0.0;  ///< s
   SolverCounters solver;
   double wall_seconds = 0.0;
 };

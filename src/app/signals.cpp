@@ -1,26 +1,69 @@
 #include "app/signals.hpp"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <string_view>
 
 namespace vitrum::app {
 namespace {
 
-volatile std::sig_atomic_t caught = 0;
+// Handlers run in any thread: what they touch is atomic, and without locks.
+std::atomic<int> caught = 0;
+std::atomic<std::int64_t> caught_at = 0;  // ns
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+constexpr std::int64_t patience = 500'000'000;  // ns
+
+std::int64_t now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
 
 void remember(int signal) {
-  if (caught != 0) std::signal(signal, SIG_DFL);
-  caught = signal;
+  int none = 0;
+  if (caught.compare_exchange_strong(none, signal)) {
+    caught_at = now();
+    return;
+  }
+  if (signal != SIGINT || now() - caught_at < patience) return;
+  constexpr std::string_view message = "interrupted again: ended at once, without a checkpoint\n";
+  (void)!write(STDERR_FILENO, message.data(), message.size());
+  _exit(128 + signal);
+}
+
+void handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+bool ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 void catch_signals() {
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+  // Shells ignore SIGINT for what they start in the background; who sends it there nevertheless means it.
+  handle(SIGINT, remember);
+  handle(SIGTERM, remember);
+  if (!ignored(SIGHUP)) handle(SIGHUP, remember);
 }
 
 int caught_signal() {
   return caught;
+}
+
+void survive_failing_writes() {
+  handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace vitrum::app

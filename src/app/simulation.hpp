@@ -10,7 +10,9 @@
 #include "app/run_state.hpp"
 #include "app/schedule.hpp"
 #include "app/watchdog.hpp"
+#include "mpm/computation_error.hpp"
 #include "output/energy_csv.hpp"
+#include "output/folder_lock.hpp"
 #include "output/result_file.hpp"
 #include "output/summary.hpp"
 
@@ -20,29 +22,38 @@ namespace vitrum::app {
 /// checkpoints.
 class Simulation final : private StepObserver {
  public:
-  /// Starts, or resumes from directory/checkpoint.h5. Throws InputError, FileError.
-  Simulation(const Scene& scene, System system, const RunOptions& options, std::filesystem::path directory);
+  /// Starts in a folder without a run, or resumes from its checkpoint.h5. Throws InputError, FileError.
+  Simulation(const Scene& scene, System system, const RunOptions& options, output::FolderLock folder);
 
-  /// To the end, to a failure, or to a signal; writes the summary; returns the exit status.
+  /// To the end, to a failure, to a signal, or until something cannot be written; writes the summary; returns
+  /// the exit status.
   int run();
 
  private:
   bool step_done(System& system, double step) override;
   void start();
   void resume();
+  int run_to_end();
+  int give_up(const std::string& cause);
   bool ended() const;
   bool advance_to(double target);
+  std::string keep_failed_point(const PointFailure& failure);
+  void require_folder();
   void write_output();
   void write_checkpoint();
   void write_energy_row();
+  void write_due_energy_row();
   std::vector<output::SeriesValue> series() const;
-  int finish(output::RunStatus status, const std::string& message, int exit_status);
+  int finish(output::RunStatus status, std::string message, int exit_status);
+  int conclude(output::RunStatus status, const std::string& message, int exit_status);
   output::RunSummary summary(output::RunStatus status, const std::string& message) const;
-  void print_summary(const output::RunSummary& summary) const;
+  std::string summary_text(const output::RunSummary& summary) const;
+  void warn_of_energy(const output::RunSummary& summary) const;
   EnergyTotals shown_energy() const { return scaled(ledger_.totals(), whole_); }
 
   const Scene& scene_;
   RunOptions options_;
+  output::FolderLock folder_;
   std::filesystem::path directory_;
   System system_;
   double whole_;  ///< 2 pi in axisymmetric scenes: files show the whole body
@@ -58,7 +69,7 @@ class Simulation final : private StepObserver {
   std::optional<output::EnergyCsv> energy_csv_;
   RunState state_;
   std::optional<std::string> failed_;
-  double last_step_ = 0.0;
+  std::optional<std::string> unwritten_;  ///< why a row of energy.csv could not be written
 };
 
 }  // namespace vitrum::app

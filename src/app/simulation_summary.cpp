@@ -2,8 +2,12 @@
 
 #include <cmath>
 
+#include "app/command_line.hpp"
+#include "app/messages.hpp"
 #include "app/simulation.hpp"
 #include "scene/choices.hpp"
+#include "scene/input_error.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -43,33 +47,58 @@ std::string place(const std::optional<FirstEvent>& e) {
 
 }  // namespace
 
-int Simulation::finish(output::RunStatus status, const std::string& message, int exit_status) {
+int Simulation::finish(output::RunStatus status, std::string message, int exit_status) {
+  if (status == output::RunStatus::failed) {
+    try {
+      // What a failed run computed last is a result, as long as it is numbers.
+      if (finite_state(system_)) write_output();
+      write_energy_row();
+    } catch (const FileError& error) {
+      message += fmt::format("; its last state could not be written: {}", error.what());
+    }
+  } else if (status == output::RunStatus::complete) {
+    write_energy_row();  // not if interrupted: a resumed run goes on with the rows of its checkpoint
+  }
+  return conclude(status, message, exit_status);
+}
+
+int Simulation::conclude(output::RunStatus status, const std::string& message, int exit_status) {
   progress_.finish();
-  // What a failed run computed last is a result, as long as it is numbers.
-  if (status == output::RunStatus::failed && finite_state(system_)) write_output();
-  if (status != output::RunStatus::interrupted)
-    write_energy_row();  // a resumed run goes on with the rows of its checkpoint
-  result_->close();
   const output::RunSummary s = summary(status, message);
-  output::write_summary(directory_ / "summary.json", s);
-  if (!options_.quiet) print_summary(s);
+  try {
+    require_folder();
+    result_->close();
+    output::write_summary(directory_ / "summary.json", s);
+  } catch (const FileError& error) {
+    if (status == output::RunStatus::complete) return give_up(error.what());
+    tell("error: {}\n", scene::single_line(error.what()));
+  }
+  try {
+    if (!options_.quiet) show(summary_text(s));
+  } catch (const FileError& error) {  // the results are in their files all the same
+    tell("error: {}\n", error.what());
+    if (exit_status == exit_done) exit_status = exit_file;
+  }
+  if (status == output::RunStatus::complete) warn_of_energy(s);
+  if (status == output::RunStatus::failed) tell("error: {}\n", scene::single_line(message));
+  if (status == output::RunStatus::interrupted) tell("interrupted: {}\n", scene::single_line(message));
+  return exit_status;
+}
+
+/// Tells of an account that does not close although the run came to its end.
+void Simulation::warn_of_energy(const output::RunSummary& s) const {
   constexpr double tolerated = 0.05;
   const double residual = s.energy.relative_residual();
-  if (status == output::RunStatus::complete && (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0)))
-    fmt::print(stderr,
-               "warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
-               100.0 * residual);
-  else if (status == output::RunStatus::complete && !(std::abs(residual) <= tolerated))
-    fmt::print(
-        stderr, "warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
-        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
-        s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
-            ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
-              "particles a cell, or integrator.method = \"arkode-explicit\""
-            : integrator_->advice(system_, last_step_));
-  if (status == output::RunStatus::failed) fmt::print(stderr, "error: {}\n", message);
-  if (status == output::RunStatus::interrupted) fmt::print(stderr, "interrupted: {}\n", message);
-  return exit_status;
+  if (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0))
+    tell("warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
+         100.0 * residual);
+  else if (!(std::abs(residual) <= tolerated))
+    tell("warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
+         residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+         s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
+             ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
+               "particles a cell, or integrator.method = \"arkode-explicit\""
+             : integrator_->advice(system_, state_.last_step));
 }
 
 output::RunSummary Simulation::summary(output::RunStatus status, const std::string& message) const {
@@ -100,24 +129,24 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   return s;
 }
 
-void Simulation::print_summary(const output::RunSummary& s) const {
+std::string Simulation::summary_text(const output::RunSummary& s) const {
   const EnergyTotals& e = s.energy;
   const char* unit = system_.axisymmetric ? "J" : "J/m";
   const double rate =
       s.wall_seconds > 0.0 ? static_cast<double>(s.constitutive.evaluations) / s.wall_seconds : 0.0;
-  fmt::print(
+  std::string text = fmt::format(
       "{}: {} particles, {} steps to t = {:.4g} us in {:.2f} s ({:.3g} particle-steps/s, {} thread{})\n",
       scene_.title, s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate, s.threads,
       s.threads == 1 ? "" : "s");
-  fmt::print(
+  text += fmt::format(
       "energy ({}): initial {:.5g}, kinetic {:.5g}, elastic {:.5g}, plastic {:.5g}, damage {:.5g}, fracture "
       "{:.5g}, external "
       "{:.5g}\n",
       unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
-  fmt::print("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
-             100.0 * e.relative_residual(), e.max_growth);
+  text += fmt::format("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
+                      100.0 * e.relative_residual(), e.max_growth);
   if (s.error)
-    fmt::print(
+    text += fmt::format(
         "estimated error of integration (sum of local errors / scale): position {:.2g}, velocity {:.2g}{}\n",
         s.error->position, s.error->velocity,
         s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
@@ -125,12 +154,14 @@ void Simulation::print_summary(const output::RunSummary& s) const {
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)
-      fmt::print("'{}': first damage {}, first localisation {}, first separation {}\n", body.name,
-                 place(body.failure.first_damage), place(body.failure.first_localisation),
-                 place(body.failure.first_separation));
-  fmt::print("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated,
-             f.fragments.size(), f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
-  fmt::print("results in {}\n", directory_.string());
+      text += fmt::format("'{}': first damage {}, first localisation {}, first separation {}\n", body.name,
+                          place(body.failure.first_damage), place(body.failure.first_localisation),
+                          place(body.failure.first_separation));
+  text += fmt::format("{} localised, {} separated particles, {} fragments{}\n", f.localised, f.separated,
+                      f.fragments.size(),
+                      f.perforated ? (*f.perforated ? ", perforated" : ", not perforated") : "");
+  text += fmt::format("results in {}\n", directory_.string());
+  return text;
 }
 
 }  // namespace vitrum::app

@@ -1,6 +1,6 @@
 #pragma once
-#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace vitrum::output {
@@ -9,6 +9,11 @@ namespace vitrum::output {
 /// the machine stops: a hidden file beside it is written, forced to disk and renamed over it. Throws
 /// FileError.
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// The same for what `write` writes into the file whose path it is given. When it or what follows throws, the
+/// hidden file is removed: it may hold the space that is missing.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write);
 
 /// Name of the hidden file beside `path` that is prepared to take its place: "DIR/.NAME.next".
 std::filesystem::path next_of(const std::filesystem::path& path);
@@ -22,9 +27,7 @@ void replace_with(const std::filesystem::path& path, const std::filesystem::path
 /// otherwise.
 bool exchange_with(const std::filesystem::path& path, const std::filesystem::path& target);
 
-/// Makes the existing file `path` at least `bytes` long, with all of it backed by disk space. Throws
-/// FileError when there is not enough. To be called before HDF5 writes: HDF5 1.10 does not survive a full
-/// disk (it crashes when it closes the file).
-void reserve_space(const std::filesystem::path& path, std::uint64_t bytes);
+/// Removes the file if there is one. Throws FileError.
+void remove_file(const std::filesystem::path& path);
 
 }  // namespace vitrum::output

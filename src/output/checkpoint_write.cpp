@@ -1,12 +1,13 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <fstream>
 #include <stdexcept>
 
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
 #include "output/checkpoint_header.hpp"
+#include "output/descriptor.hpp"
 #include "output/hdf5.hpp"
 #include "output/result_file.hpp"
 #include "output/sha256.hpp"
@@ -28,22 +29,8 @@ void write_body(const Group& group, const BodyCheckpoint& body) {
     if (!column->empty()) variables.write(name, *column);
 }
 
-std::uint64_t space_for(const Checkpoint& checkpoint) {
-  std::size_t objects = 8 + checkpoint.numbers.size() + checkpoint.texts.size();
-  std::uint64_t bytes = 0;
-  for (const BodyCheckpoint& body : checkpoint.bodies) {
-    const std::size_t columns =
-        stored_columns(body.particles).size() + variable_columns(body.particles).size() + 1;
-    objects += columns + 2;
-    bytes += columns * body.particles.size * sizeof(double);
-  }
-  for (const auto& [name, values] : checkpoint.numbers) bytes += name.size() + values.size() * sizeof(double);
-  for (const auto& [name, text] : checkpoint.texts) bytes += name.size() + text.size();
-  return output::space_for(objects, bytes);
-}
-
 void write_content(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  File file = File::create(path, space_for(checkpoint), checkpoint_header_size);
+  File file = File::create(path, checkpoint_header_size);
   const Group& root = file.root();
   root.set_attribute(".", "time", checkpoint.time);
   root.set_attribute(".", "step_index", checkpoint.step_index);
@@ -59,20 +46,16 @@ void write_content(const std::filesystem::path& path, const Checkpoint& checkpoi
 
 /// HDF5 leaves the first bytes of the file to its user: they take the header line.
 void write_header_line(const std::filesystem::path& path) {
-  const std::string line = checkpoint_header(sha256_of_file(path, checkpoint_header_size));
-  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-  file.write(line.data(), static_cast<std::streamsize>(line.size()));
-  file.close();
-  if (!file) throw FileError(fmt::format("{}: cannot write the header", path.string()));
+  Descriptor(path, O_WRONLY).write(checkpoint_header(sha256_of_file(path, checkpoint_header_size)));
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  const std::filesystem::path next = next_of(path);
-  write_content(next, checkpoint);
-  write_header_line(next);
-  replace_with(next, path);
+  write_atomically(path, [&checkpoint](const std::filesystem::path& next) {
+    write_content(next, checkpoint);
+    write_header_line(next);
+  });
 }
 
 std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies) {

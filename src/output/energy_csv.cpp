@@ -1,9 +1,8 @@
 #include "output/energy_csv.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -12,18 +11,13 @@
 #include "scene/input_error.hpp"
 
 namespace vitrum::output {
-namespace {
-constexpr const char* header = "time,step,kinetic,elastic,plastic,damage,fracture,external,residual";
-}
 
-EnergyCsv::EnergyCsv(const std::filesystem::path& path, const char* mode, std::size_t rows)
-    : path_(path), file_(std::fopen(path.c_str(), mode), std::fclose), rows_(rows) {
-  if (!file_) throw FileError(fmt::format("{}: cannot open: {}", path.string(), std::strerror(errno)));
-}
+EnergyCsv::EnergyCsv(const std::filesystem::path& path, std::size_t rows)
+    : file_(path, O_WRONLY | O_APPEND), size_(file_.size()), rows_(rows) {}
 
 EnergyCsv EnergyCsv::create(const std::filesystem::path& path) {
   write_text_atomically(path, std::string(header) + '\n');
-  return EnergyCsv(path, "ae", 0);
+  return EnergyCsv(path, 0);
 }
 
 EnergyCsv EnergyCsv::reopen(const std::filesystem::path& path, std::size_t rows) {
@@ -42,15 +36,20 @@ EnergyCsv EnergyCsv::reopen(const std::filesystem::path& path, std::size_t rows)
     kept += line + '\n';
   }
   write_text_atomically(path, kept);
-  return EnergyCsv(path, "ae", rows);
+  return EnergyCsv(path, rows);
 }
 
 void EnergyCsv::append(double time, std::int64_t step, const EnergyTotals& energy) {
   const std::string line =
       fmt::format("{},{},{},{},{},{},{},{},{}\n", time, step, energy.kinetic, energy.elastic, energy.plastic,
                   energy.damage, energy.fracture, energy.external, energy.residual());
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() || std::fflush(file_.get()) != 0)
-    throw FileError(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
+  try {
+    file_.write(line);
+  } catch (const FileError&) {
+    file_.truncate(size_);
+    throw;
+  }
+  size_ += line.size();
   ++rows_;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -118,34 +119,24 @@ class Group {
 /// earlier ones the index of chunks does not).
 class File {
  public:
-  /// Replaces an existing file. expected_bytes: what will be written, see open_to_write. user_block: bytes
-  /// left free at the start, 0 or a power of two >= 512.
-  static File create(const std::filesystem::path& path, std::uint64_t expected_bytes = 0,
-                     std::uint64_t user_block = 0);
+  /// Replaces an existing file. user_block: bytes left free at the start, 0 or a power of two >= 512.
+  static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
   static File open_to_read(const std::filesystem::path& path);
-  /// expected_bytes: an upper estimate of what will be added. That much disk space is reserved first, so that
-  /// a full disk is an error here; what is not used is given back by close().
-  static File open_to_write(const std::filesystem::path& path, std::uint64_t expected_bytes = 0);
+  static File open_to_write(const std::filesystem::path& path);
 
   const Group& root() const { return root_; }
-  /// Writes everything out and closes; the only way to learn that the disk is full. The file may not be used
-  /// afterwards.
+  /// Writes everything out and closes; the only way to learn that something could not be written (the disk is
+  /// full). The file may not be used afterwards.
   void close();
 
  private:
-  File(Handle handle, const std::filesystem::path& path);
-  static File open(const std::filesystem::path& path, unsigned flags, const std::string& action);
+  File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle);
 
-  Handle handle_;
   std::string path_;
+  std::unique_ptr<int> failure_;  ///< errno of the first write that failed, or 0; must outlive the handle
+  Handle handle_;
   Group root_;
 };
-
-/// Upper estimate of the file space of `objects` datasets or groups, with attributes, that hold `bytes` of
-/// data.
-constexpr std::uint64_t space_for(std::size_t objects, std::uint64_t bytes) {
-  return (std::uint64_t{64} << 10) + (std::uint64_t{4} << 10) * objects + bytes + bytes / 64;
-}
 
 /// Version of the HDF5 library in use, "1.10.8".
 std::string hdf5_version();

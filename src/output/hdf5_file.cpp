@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
-#include "output/atomic_file.hpp"
+#include <cstring>
+
+#include "output/hdf5_driver.hpp"
 #include "output/hdf5_internal.hpp"
 #include "output/regular_file.hpp"
 #include "scene/toml_text.hpp"
@@ -13,6 +15,16 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
+/// Where the system refused, HDF5 describes the whole call over several lines; the system's reason is what
+/// counts.
+std::string reason_in(const std::string& description) {
+  constexpr std::string_view before = "error message = '";
+  const std::size_t found = description.find(before);
+  if (found == std::string::npos) return description;
+  const std::size_t begin = found + before.size();
+  return description.substr(begin, description.find('\'', begin) - begin);
+}
+
 /// HDF5 prints its error stack by default; here it goes into exceptions. (The setting belongs to the calling
 /// thread.) And a file must not lead into other files.
 void set_up() {
@@ -20,13 +32,16 @@ void set_up() {
   if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
 
-Handle access_properties(const std::string& path) {
-  Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "set file access");
+Handle with_format_and_locks(Handle access, const std::string& path) {
   checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "set file format");
   // Lock where the file system can, do without where it cannot.
   checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
   return access;
+}
+
+Handle open(const std::string& name, unsigned flags, const Handle& access, const std::string& action) {
+  return own(H5Fopen(name.c_str(), flags, access.id()), H5Fclose, name, action);
 }
 
 }  // namespace
@@ -35,46 +50,53 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
   H5Eclear2(H5E_DEFAULT);
-  throw Hdf5Error(scene::single_line(
-      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason)));
+  throw Hdf5Error(scene::single_line(fmt::format("{}: cannot {}: {}", where, action,
+                                                 reason.empty() ? "unknown HDF5 error" : reason_in(reason))));
 }
 
-File::File(Handle handle, const std::filesystem::path& path)
-    : handle_(std::move(handle)),
-      path_(path.string()),
+File::File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle)
+    : path_(path),
+      failure_(std::move(failure)),
+      handle_(std::move(handle)),
       root_(own(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), H5Gclose, path_, "open the root group"),
             path_ + ": /") {}
 
-File File::create(const std::filesystem::path& path, std::uint64_t expected_bytes, std::uint64_t user_block) {
+File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   set_up();
   const std::string name = path.string();
   const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
   if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
-  own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access_properties(name).id()), H5Fclose, name,
-      "create the file");
-  return open_to_write(path, expected_bytes);
+  auto failure = std::make_unique<int>(0);
+  const Handle access = with_format_and_locks(writing_properties(*failure, name), name);
+  return File(path, std::move(failure),
+              own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, name,
+                  "create the file"));
 }
 
 File File::open_to_read(const std::filesystem::path& path) {
-  return open(path, H5F_ACC_RDONLY, "open the file as HDF5");
-}
-
-File File::open_to_write(const std::filesystem::path& path, std::uint64_t expected_bytes) {
-  if (expected_bytes > 0) reserve_space(path, std::filesystem::file_size(path) + expected_bytes);
-  return open(path, H5F_ACC_RDWR, "open the file as HDF5 for writing");
-}
-
-File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
   set_up();
-  const std::string name = path.string();
   require_regular_file(path);
-  return File(own(H5Fopen(name.c_str(), flags, access_properties(name).id()), H5Fclose, name, action), path);
+  const std::string name = path.string();
+  const Handle access =
+      with_format_and_locks(own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "set file access"), name);
+  return File(path, std::make_unique<int>(0), open(name, H5F_ACC_RDONLY, access, "open the file as HDF5"));
+}
+
+File File::open_to_write(const std::filesystem::path& path) {
+  set_up();
+  require_regular_file(path);
+  const std::string name = path.string();
+  auto failure = std::make_unique<int>(0);
+  const Handle access = with_format_and_locks(writing_properties(*failure, name), name);
+  Handle file = open(name, H5F_ACC_RDWR, access, "open the file as HDF5 for writing");
+  return File(path, std::move(failure), std::move(file));
 }
 
 void File::close() {
   root_ = Group(Handle(), path_ + ": /");
-  checked(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), path_, "write the file");
   if (!handle_.release()) throw_hdf5_error(path_, "close the file");
+  if (*failure_ != 0)
+    throw Hdf5Error(fmt::format("{}: cannot write the file: {}", path_, std::strerror(*failure_)));
 }
 
 std::string hdf5_version() {

@@ -22,6 +22,8 @@ std::string sundials_version() {
   return text.data();
 }
 
+}  // namespace
+
 std::string host_name() {
   std::array<char, 256> text{};
   if (gethostname(text.data(), text.size() - 1) != 0) return "unknown";
@@ -36,8 +38,6 @@ std::string utc_now() {
   std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &broken_down);
   return text.data();
 }
-
-}  // namespace
 
 Provenance make_provenance(std::string command, std::string scene_sha256) {
   return {VITRUM_VERSION,  VITRUM_GIT,  std::move(command), sundials_version(),

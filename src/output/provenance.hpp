@@ -33,6 +33,11 @@ inline constexpr std::array<ProvenanceEntry, 8> provenance_entries = {{
     {"scene_sha256", &Provenance::scene_sha256},
 }};
 
+/// Name of this machine.
+std::string host_name();
+/// UTC, ISO 8601.
+std::string utc_now();
+
 /// Provenance of a run that starts now, on this machine, with this build.
 Provenance make_provenance(std::string command, std::string scene_sha256);
 

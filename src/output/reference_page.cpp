@@ -17,7 +17,8 @@ A run writes into its output directory:
 | `result.h5` | particles and series at every output | at every output |
 | `result.xdmf` | opens `result.h5` in ParaView (with any of its three XDMF readers) | at every output |
 | `energy.csv` | the energy account | row by row |
-| `checkpoint.h5` | everything a resumed run needs | on a signal, and as `output.checkpoint_every` asks |
+| `checkpoint.h5` | everything a resumed run needs | on a signal, as `output.checkpoint_every` asks, and when something else cannot be written |
+| `failed_point.toml` | the increment of a particle that could not be integrated | at such a failure |
 
 All numbers are SI. Axisymmetric quantities are those of the whole body (not per radian), plane-strain ones are per metre.
 
@@ -28,12 +29,33 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   of them is complete, either in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
 - `result.h5` therefore always holds the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
   read while the run goes on; a program that has it open keeps the version that it opened.
-- A row of `energy.csv` is handed to the operating system as a whole line. After a power cut (not after a kill) last rows may be missing.
+- A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line. After a power cut (not
+  after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
 - Truncated and foreign files are refused with a message. All that `result.h5` holds carries checksums: HDF5's own for its structure
   (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
   reader, not another value. `vitrum info`, `compare` and `--resume` check what they read.
-- `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them.
+- `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them. A resumed explicit run gives the
+  bits of an uninterrupted one; an adaptive run does from a planned checkpoint, and keeps its tolerance from one written on a signal.
+
+## A folder belongs to one run
+
+- A run holds its folder while it is under way. Another one into it, with `--resume` or `--force` too, ends with status 2 and touches nothing.
+  The lock (`flock` on `.vitrum.lock`) goes with the process, however that ends. A file system without locks is warned of.
+- A folder that holds an earlier run is refused with status 2, unless `--resume` continues or `--force` replaces that run. It holds one when there
+  is a checkpoint, a result with at least one output, or a summary that does not tell of a failure; so not when the run was killed or
+  failed before its first output. Files of a run's names that no run wrote count as well; files of other names are neither looked at
+  nor touched. The reason: a run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
+- `--resume` without a checkpoint is refused with status 4. It takes the scene and the `--set` values of the run that it continues.
+- A folder that is moved, removed, or cleared and taken by another run ends the run with status 4, which leaves the other's files alone.
+
+## When something cannot be written
+
+- The run ends with status 4; the message names the file and the system's reason. Completed outputs stay as they are. The space of the hidden
+  file is given back, and a checkpoint is tried: where it fits, `--resume` goes on at that very step when the cause has been mended.
+- Messages and progress are not part of the result: a terminal that has gone, a broken pipe or a full disk behind them ends no run.
+- SIGINT, SIGTERM and SIGHUP (without `nohup`) end a run after the step under way, with a checkpoint, and status 130, 143 or 129; a second SIGINT, at
+  least half a second later, ends it at once and without one.
 
 ## `result.h5`
 

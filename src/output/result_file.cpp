@@ -37,7 +37,7 @@ ResultFile::ResultFile(const std::filesystem::path& directory, Publishing publis
 }
 
 ResultFile::~ResultFile() {
-  if (shadow_.empty()) return;  // moved from
+  if (shadow_.empty()) return;  // moved from, or abandoned
   std::error_code missing;
   std::filesystem::remove(shadow_, missing);
 }
@@ -45,7 +45,7 @@ ResultFile::~ResultFile() {
 ResultFile ResultFile::create(const std::filesystem::path& directory, const RunHeader& header,
                               Publishing publishing) {
   ResultFile result(directory, publishing);
-  File file = File::create(result.shadow_, space_for(header));
+  File file = File::create(result.shadow_);
   write_header(file.root(), header);
   file.close();
   replace_with(result.shadow_, result.path_);
@@ -65,7 +65,7 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
         fmt::format("{}: holds {} outputs, fewer than the {} that were written before the checkpoint",
                     result.path_.string(), result.steps_.size(), outputs));
   if (result.steps_.size() == outputs) return result;
-  File shortened = File::create(result.shadow_, space_for(0, std::filesystem::file_size(result.path_)));
+  File shortened = File::create(result.shadow_);
   copy_constants(old.root(), shortened.root());
   copy_steps(old.root(), shortened.root(), 0, outputs);
   shortened.close();
@@ -75,19 +75,16 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
   return result;
 }
 
-File ResultFile::open_shadow(std::uint64_t frame_bytes) const {
-  if (std::filesystem::exists(shadow_)) {
+File ResultFile::open_shadow() const {
+  std::error_code failure;
+  if (std::filesystem::exists(shadow_, failure)) {
     try {
-      // The steps that the shadow lacks take no more than result.h5 is longer by.
-      const std::uint64_t length = std::filesystem::file_size(path_),
-                          own_length = std::filesystem::file_size(shadow_);
-      return File::open_to_write(shadow_, frame_bytes + (length > own_length ? length - own_length : 0));
+      return File::open_to_write(shadow_);
     } catch (const Hdf5Error&) {
       // Another program still reads the file that was result.h5 one output ago: leave it to that program.
-      std::filesystem::remove(shadow_);
+      remove_file(shadow_);
     }
   }
-  std::error_code failure;
   std::filesystem::copy_file(path_, shadow_, failure);
   if (failure)
     throw FileError(
@@ -95,13 +92,13 @@ File ResultFile::open_shadow(std::uint64_t frame_bytes) const {
   // The copy of a write-protected result must be writable.
   std::filesystem::permissions(shadow_, std::filesystem::perms::owner_write,
                                std::filesystem::perm_options::add, failure);
-  return File::open_to_write(shadow_, frame_bytes);
+  return File::open_to_write(shadow_);
 }
 
 void ResultFile::append(const OutputFrame& frame) {
   require_consistent(frame, particles_);
   try {
-    File shadow = open_shadow(space_for(frame));
+    File shadow = open_shadow();
     const std::size_t present = count_steps(shadow.root());
     if (present < steps_.size()) {
       const File current = File::open_to_read(path_);

@@ -53,6 +53,8 @@ class ResultFile {
   void append(const OutputFrame& frame);
   /// Deletes the shadow. result.h5 needs no closing: also an object that is never closed leaves it complete.
   void close();
+  /// Leaves the shadow alone from now on: its path leads into a folder that is no longer this run's.
+  void abandon() { shadow_.clear(); }
 
   const std::vector<StoredStep>& steps() const { return steps_; }
   /// Particles per field (0: the run stores no constant particle data).
@@ -62,7 +64,7 @@ class ResultFile {
  private:
   ResultFile(const std::filesystem::path& directory, Publishing publishing);
   void publish();
-  File open_shadow(std::uint64_t frame_bytes) const;
+  File open_shadow() const;
 
   std::filesystem::path path_, shadow_;
   Publishing publishing_;

@@ -61,21 +61,6 @@ void write_header(const Group& root, const RunHeader& header) {
   root.create_group("series");
 }
 
-std::uint64_t space_for(const RunHeader& header) {
-  const ParticleConstants& particles = header.particles;
-  std::uint64_t bytes = header.title.size() + header.scene_verbatim.size() + header.scene_resolved.size();
-  for (const ProvenanceEntry& entry : provenance_entries) bytes += (header.provenance.*entry.member).size();
-  for (const std::string& body : particles.bodies) bytes += body.size();
-  bytes += particles.mass.size() * sizeof(double) + 2 * particles.body.size() * sizeof(std::uint32_t);
-  return space_for(16 + particles.bodies.size(), bytes);
-}
-
-std::uint64_t space_for(const OutputFrame& frame) {
-  std::uint64_t bytes = 0;
-  for (const Field& field : frame.fields) bytes += field.values.size() * sizeof(double);
-  return space_for(2 + frame.fields.size() + 2 + frame.series.size(), bytes);
-}
-
 void write_step(const Group& root, std::size_t index, const OutputFrame& frame) {
   const Group step = root.open_group("steps").create_group(step_name(index));
   step.set_attribute(".", "time", frame.time);

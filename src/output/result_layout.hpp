@@ -1,6 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "output/hdf5.hpp"
@@ -17,10 +16,6 @@ void require_result(const Group& root);
 
 /// Everything that is written once, and the empty groups /steps and /series.
 void write_header(const Group& root, const RunHeader& header);
-
-/// Upper estimates of the bytes that a header and a frame add to a file.
-std::uint64_t space_for(const RunHeader& header);
-std::uint64_t space_for(const OutputFrame& frame);
 
 /// Group /steps/NNNNN with its attributes and fields.
 void write_step(const Group& root, std::size_t index, const OutputFrame& frame);

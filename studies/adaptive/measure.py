@@ -38,7 +38,7 @@ class Measurement:
         """Summary and velocities of one run; None when it takes too long."""
         scene, _, fixed, _ = cases[case]
         folder = self.out / "run"
-        command = [self.program, "run", scene, "--out", folder, "--quiet", "--threads", "1"]
+        command = [self.program, "run", scene, "--out", folder, "--force", "--quiet", "--threads", "1"]
         for setting in [f'space.shape_functions="{shape}"', *fixed, *settings]:
             command += ["--set", setting]
         try:

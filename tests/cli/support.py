@@ -24,21 +24,34 @@ glass_point = here / "points" / "glass.toml"
 if "VITRUM" not in os.environ:
     sys.exit("set VITRUM to the path of the program")
 program = os.environ["VITRUM"]
+preload = os.environ.get("VITRUM_PRELOAD")  # tests/cli/preload as a library; without it tests that need it are skipped
+
+
+def preloaded(**settings):
+    """The environment in which tests/cli/preload stands between the program and the C library."""
+    # A sanitizer wants to be the first library; here it may be the second.
+    sanitizer = ":".join(filter(None, (os.environ.get("ASAN_OPTIONS"), "verify_asan_link_order=0")))
+    return {**os.environ, "LD_PRELOAD": preload, "ASAN_OPTIONS": sanitizer,
+            **{name: str(value) for name, value in settings.items()}}
 
 
 class CommandLineTest(unittest.TestCase):
     """A test with a folder of its own, `self.folder`, and assertions on the program's answers."""
 
+    in_memory = False  # whether the folder may be one that costs no disk: much is written, and forced to disk
+
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrum-"))
+        memory = "/dev/shm" if self.in_memory and os.access("/dev/shm", os.W_OK) else None
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrum-", dir=memory))
         self.addCleanup(shutil.rmtree, self.folder)
 
     def vitrum(self, *arguments, status=0, **options):
-        """Runs the program to its end and checks its exit status; stdout and stderr as texts."""
+        """Runs the program to its end and checks its exit status (None: any); stdout and stderr as texts."""
         done = subprocess.run([program, *map(str, arguments)], text=True, encoding="utf-8", timeout=120, cwd=self.folder,
                               stdin=subprocess.DEVNULL,
                               **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
-        self.assertEqual(done.returncode, status, f"{arguments}: {done.stderr}")
+        if status is not None:
+            self.assertEqual(done.returncode, status, f"{arguments}: {done.stderr}")
         return done
 
     def run_scene(self, name, *arguments, scene=impact, status=0):
@@ -47,14 +60,60 @@ class CommandLineTest(unittest.TestCase):
         self.vitrum("run", scene, "--out", out, *arguments, status=status)
         return out
 
-    def start(self, *arguments):
+    def start(self, *arguments, **options):
         """Starts the program and leaves it running; standard error is a pipe."""
         process = subprocess.Popen([program, *map(str, arguments)], text=True, cwd=self.folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **options)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
+
+    def run_on_terminal(self, *arguments, **options):
+        """What the program writes on standard error when that is a terminal."""
+        try:
+            ours, theirs = os.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminals here: {error}")
+        shown = b""
+        try:
+            self.vitrum(*arguments, stderr=theirs, **options)
+        finally:
+            os.close(theirs)
+            while True:
+                try:
+                    piece = os.read(ours, 65536)
+                except OSError:  # the terminal's other end is closed and all is read
+                    break
+                if not piece:
+                    break
+                shown += piece
+            os.close(ours)
+        return shown.decode()
+
+    def wait_for_outputs(self, process, count):
+        """Until the program has told of so many outputs; its lines."""
+        lines = []
+        while sum(line.startswith("t = ") for line in lines) < count:
+            lines.append(process.stderr.readline())
+            self.assertTrue(lines[-1], f"ended too early: {''.join(lines)}")
+        return lines
+
+    def assert_completed_outputs(self, out, whole):
+        """Whatever happened to the run in `out`, its outputs so far can be read and are those of the run `whole`, and what it
+        tells of energies is what that told. The number of outputs; None: it came to nothing."""
+        if not (out / "result.h5").exists():
+            return None
+        outputs = output_count(out)
+        self.assert_same_results(out, whole, steps=outputs)
+        if (out / "energy.csv").exists():
+            self.assertTrue((whole / "energy.csv").read_text().startswith((out / "energy.csv").read_text()))
+        return outputs
+
+    def recover(self, out, *arguments, scene=impact):
+        """Goes on with an ended run from its checkpoint, or starts anew where there is none."""
+        self.vitrum("run", scene, "--out", out, "--quiet", *arguments,
+                    "--resume" if (out / "checkpoint.h5").exists() else "--force")
 
     def assert_same_results(self, one, other, steps=None):
         """All that two runs left is equal to the last bit, but for provenance and times of day. With `steps`, the first

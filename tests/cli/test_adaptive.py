@@ -1,8 +1,6 @@
 """Runs under the adaptive methods: what they leave, reproducibility, checkpoints, and steps that collapse."""
 import json
-import random
 import signal
-import time
 import unittest
 
 import h5py
@@ -77,28 +75,6 @@ class Reproducible(CommandLineTest):
             with self.subTest(method):
                 one, two = (self.run_scene(f"{method}{n}", *settings, "--threads", n) for n in (1, 2))
                 self.assert_same_results(one, two)
-
-    def test_killed_and_resumed_from_a_planned_checkpoint(self):
-        moments = random.Random(7)
-        for method, settings in slow.items():
-            with self.subTest(method):
-                settings = [*settings, *overrides(output__checkpoint_every=1e-6)]
-                begun = time.monotonic()
-                whole = self.run_scene(f"whole {method}", *settings)
-                duration = time.monotonic() - begun
-                out = self.folder / f"out {method}"
-                resume, kills = [], 0
-                for _ in range(4):
-                    process = self.start("run", impact, "--out", out, "--quiet", *settings, *resume)
-                    time.sleep(duration * moments.uniform(0.2, 0.4))
-                    kills += process.poll() is None
-                    process.kill()
-                    process.wait()
-                    if (out / "checkpoint.h5").exists():
-                        resume = ["--resume"]
-                self.assertGreater(kills, 0)
-                self.run_scene(out.name, *settings, *resume)
-                self.assert_same_results(out, whole)
 
     def test_interrupted_and_resumed(self):
         for method, settings in slow.items():

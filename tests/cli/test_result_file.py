@@ -98,7 +98,7 @@ class ResultFile(CommandLineTest):
         fresh = self.run_scene("fresh", "--no-fields")
         out = self.run_scene("out", *overrides(output__checkpoint_every=4e-6))
         self.assertTrue((out / "checkpoint.h5").exists())
-        self.run_scene("out", "--no-fields")
+        self.run_scene("out", "--no-fields", "--force")
         self.assertEqual(sorted(p.name for p in out.iterdir()), sorted(p.name for p in fresh.iterdir()))
 
 

@@ -160,7 +160,7 @@ TEST_CASE("When the disk is full the error is reported and the result is as befo
     result.append(sample_frame(0));
     OutputFrame large = sample_frame(1);
     large.series.clear();
-    for (int s = 0; s < 400; ++s)
+    for (int s = 0; s < 4000; ++s)
       large.series.push_back({"series " + std::to_string(s), "1", "fills the disk", 0.0});
     for (int attempt = 0; attempt < 2; ++attempt) {
       try {

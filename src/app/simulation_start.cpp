@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include "app/simulation.hpp"
+#include "mpm/coasting.hpp"
+#include "output/atomic_file.hpp"
+#include "output/particle_fields.hpp"
+#include "output/xdmf.hpp"
+#include "scene/input_error.hpp"
+#include "scene/write_scene.hpp"
+
+namespace vitrum::app {
+
+void Simulation::start() {
+  result_ = output::ResultFile::create(
+      directory_, {scene_.title, scene_.verbatim, resolved_toml(scene_), provenance_,
+                   options_.no_fields ? output::ParticleConstants{}
+                                      : output::particle_constants(system_.bodies, scene_.geometry)});
+  energy_csv_ = output::EnergyCsv::create(directory_ / "energy.csv");
+  write_energy_row();
+  ++state_.energy_times;
+  if (schedule_.output_at_start()) write_output();
+}
+
+void Simulation::resume() {
+  const output::Checkpoint checkpoint = output::read_checkpoint(directory_ / "checkpoint.h5");
+  if (checkpoint.scene_sha256 != provenance_.scene_sha256)
+    throw InputError(fmt::format(
+        "{}: found a checkpoint of another scene (or other --set values); expected the one of this scene",
+        (directory_ / "checkpoint.h5").string()));
+  output::restore_bodies(checkpoint, system_.bodies);
+  state_ = restored(checkpoint);
+  system_.time = checkpoint.time;
+  system_.step_index = checkpoint.step_index;
+  system_.constitutive_evaluations = state_.evaluations;
+  system_.constitutive_events = state_.events;
+  system_.constitutive_solver = state_.solver;
+  mpm::restore_coasting(system_, state_.coasting);
+  ledger_ = EnergyLedger(system_, state_.energy);
+  failure_.restore(state_.failure);
+  integrator_->restore(state_.integrator);
+  result_ = output::ResultFile::reopen(directory_, static_cast<std::size_t>(state_.result_steps));
+  if ((result_->particles() == 0) != options_.no_fields)
+    throw InputError(fmt::format("--resume: found a run {} particle data in {}, expected {} --no-fields",
+                                 options_.no_fields ? "with" : "without", directory_.string(),
+                                 options_.no_fields ? "no" : "also"));
+  energy_csv_ =
+      output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
+  // What the run left when it was interrupted would speak for what follows.
+  output::remove_file(directory_ / "summary.json");
+  if (result_->steps().empty())
+    output::remove_file(directory_ / "result.xdmf");
+  else if (!fields_.empty())
+    output::write_xdmf(*result_);
+  write_due_energy_row();  // a run that could not write it ends with a checkpoint all the same
+}
+
+}  // namespace vitrum::app
