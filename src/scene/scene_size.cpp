@@ -20,7 +20,7 @@ constexpr double of_particle = 8.0 * 18.0 + 12.0 + 140.0;
 constexpr double of_variable = 8.0 + 8.0;
 /// Nodal fields, the tile and the bookkeeping of a block of nodes.
 constexpr double of_block =
-    mpm::block_nodes * (mpm::field_count * 8.0 + 4.0) + 8.0 * mpm::Grid::tile_stride + 400.0;
+    mpm::block_nodes * (mpm::field_count * 8.0 + 4.0) + static_cast<double>(sizeof(mpm::TileData)) + 400.0;
 /// arkode-explicit: vectors of 9 unknowns a particle, some for each stage and some besides.
 constexpr double of_unknowns = 9.0 * 8.0, vectors = 11.0, vectors_of_stage = 1.5;
 /// arkode-implicit: vectors over nodes and particles, tangents, and the matrix.
