@@ -100,14 +100,40 @@ StressUpdate::StressUpdate(System& system, double duration)
   for (Body& body : system.bodies) columns_.push_back(committing_columns(body.particles));
 }
 
-void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk) {
+void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
+                        const ChunkIncrements& increments) {
   BatchReport& report = reports_[tile * columns_.size() + body];
   for (std::size_t first = 0, end; first < chunk.size(); first = end) {
     end = first + 1;
     while (end < chunk.size() && chunk.place(end) == chunk.place(end - 1) + 1) ++end;
-    system_.local->integrate(*system_.bodies[body].material, columns_[body], chunk.place(first),
-                             chunk.place(end - 1) + 1, duration_, report);
+    take_run(report, body, chunk.place(first), end - first, increments, first);
   }
+}
+
+/// Particles [place, place + size) of a body, whose increments begin at `first` of the chunk's.
+void StressUpdate::take_run(BatchReport& report, std::size_t body, std::size_t place, std::size_t size,
+                            const ChunkIncrements& increments, std::size_t first) {
+  ParticleColumns c = columns_[body];
+  const auto advance = [place](auto& pointers) {
+    for (auto& pointer : pointers)
+      if (pointer != nullptr) pointer += place;
+  };
+  advance(c.start_strain), advance(c.start_variables), advance(c.elastic_strain), advance(c.stress);
+  advance(c.variables);
+  c.mass += place;
+  for (std::size_t k = 0; k < 4; ++k) c.strain_increment[k] = increments.strain[k] + first;
+  c.spin_increment = increments.spin + first;
+  const std::size_t known_events = report.events.size();
+  const bool had_failed = report.failed.has_value();
+  system_.local->integrate(*system_.bodies[body].material, c, 0, size, duration_, report);
+  for (std::size_t k = known_events; k < report.events.size(); ++k) report.events[k].particle += place;
+  if (had_failed || !report.failed) return;
+  // Who looks into the failure finds the increment with the particle.
+  Particles& p = system_.bodies[body].particles;
+  for (std::size_t k = 0; k < 4; ++k)
+    p.strain_increment[k][place + *report.failed] = c.strain_increment[k][*report.failed];
+  p.spin_increment[place + *report.failed] = c.spin_increment[*report.failed];
+  *report.failed += place;
 }
 
 void StressUpdate::book() {

@@ -135,21 +135,36 @@ void store_turned(std::size_t size, const Interpolated<P>& at, const double* spi
 
 /// Strain and spin increments of a chunk over `duration`.
 template <bool axisymmetric, class P>
-void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& radius,
-                  double cell, double duration) {
-  ColumnWriter e0(chunk, p.strain_increment[0]), e1(chunk, p.strain_increment[1]),
-      e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spins(chunk, p.spin_increment);
+void interpolate_strain(std::size_t size, const Interpolated<P>& at, const ColumnReader& radius, double cell,
+                        double duration, const std::array<double*, 4>& to, double* spin) {
   const double *r = at.along_r(), *z = at.along_z();
-  double* spin = spins.data();
   const double half_scale = 0.5 * duration / cell;
-  const std::size_t size = chunk.size();
 #pragma GCC ivdep
   for (std::size_t k = 0; k < size; ++k) spin[k] = half_scale * (r[P::width * k + 1] - z[P::width * k]);
-  const std::array<double*, 4> to{e0.data(), e1.data(), e2.data(), e3.data()};
   if (0.5 * largest_size(spin, size) <= small_angle)
     store_turned<axisymmetric, true>(size, at, spin, radius.data(), cell, duration, to);
   else
     store_turned<axisymmetric, false>(size, at, spin, radius.data(), cell, duration, to);
+}
+
+template <bool axisymmetric, class P>
+void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, const ColumnReader& radius,
+                  double cell, double duration) {
+  ColumnWriter e0(chunk, p.strain_increment[0]), e1(chunk, p.strain_increment[1]),
+      e2(chunk, p.strain_increment[2]), e3(chunk, p.strain_increment[3]), spin(chunk, p.spin_increment);
+  interpolate_strain<axisymmetric>(chunk.size(), at, radius, cell, duration,
+                                   {e0.data(), e1.data(), e2.data(), e3.data()}, spin.data());
+}
+
+/// The same without a detour through memory that no one else will read.
+template <bool axisymmetric, class P>
+void strain_and_stress(const Chunk& chunk, std::size_t tile, std::size_t body, StressUpdate& stress,
+                       const Interpolated<P>& at, const ColumnReader& radius, double cell, double duration) {
+  ChunkIncrements increments;
+  auto& e = increments.strain;
+  interpolate_strain<axisymmetric>(chunk.size(), at, radius, cell, duration, {e[0], e[1], e[2], e[3]},
+                                   increments.spin);
+  stress.take(tile, body, chunk, increments);
 }
 
 /// Adds the interpolated change to the velocities; returns the kinetic energy of the chunk then.
@@ -282,8 +297,10 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
             x[k] = at.values()[P::width * k + c], v[k] = at.values()[P::width * k + 2 + c];
         }
       if constexpr (P::strain) {
-        store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
-        if (stress != nullptr) stress->take(tile, n, chunk);
+        if (stress != nullptr)
+          strain_and_stress<axisymmetric>(chunk, tile, n, *stress, at, r, cell, duration);
+        else
+          store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
       }
       if constexpr (P::velocity) sums.kinetic += store_velocity(chunk, p, at);
       if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);

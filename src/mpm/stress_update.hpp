@@ -6,6 +6,11 @@
 
 namespace vitrum::mpm {
 
+/// Strain and spin increments of a chunk (as in Particles).
+struct ChunkIncrements {
+  double strain[4][Chunk::capacity], spin[Chunk::capacity];
+};
+
 /// Takes particles over their strain increments tile by tile. What the tiles did is booked in their order, so
 /// that the record does not depend on how particles are stored or on threads.
 class StressUpdate {
@@ -13,11 +18,14 @@ class StressUpdate {
   StressUpdate(System& system, double duration);
 
   /// A chunk of a body in a tile. Called from several threads, for different tiles.
-  void take(std::size_t tile, std::size_t body, const Chunk& chunk);
+  void take(std::size_t tile, std::size_t body, const Chunk& chunk, const ChunkIncrements& increments);
   /// Fills the energies and events of system.record. Throws PointFailure.
   void book();
 
  private:
+  void take_run(BatchReport& report, std::size_t body, std::size_t place, std::size_t size,
+                const ChunkIncrements& increments, std::size_t first);
+
   System& system_;
   double duration_;
   std::vector<ParticleColumns> columns_;  // by body

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "mpm/storage.hpp"
 #include "mpm/transfer.hpp"
 #include "support/mpm_run.hpp"
 #include "support/random_states.hpp"
@@ -139,4 +140,40 @@ TEST_CASE("A uniform velocity is seen as such by every particle, without strain"
       REQUIRE(std::abs(p.spin_increment[i]) < 2e-15);
     }
   }
+}
+
+TEST_CASE("Operators give the same bits wherever particles lie in memory", "[mpm]") {
+  for (const char* geometry : geometries)
+    for (const char* shape : shapes) {
+      CAPTURE(geometry, shape);
+      MpmRun sorted = disordered(geometry, shape), mixed = disordered(geometry, shape);
+      const std::size_t size = mixed.particles().size;
+      std::vector<std::uint32_t> order(size);
+      for (std::uint32_t i = 0; i < size; ++i) order[i] = (7919 * i) % static_cast<std::uint32_t>(size);
+      reorder(mixed.particles(), order);
+      REQUIRE(mixed.particles().identity == order);
+      refresh_grid(sorted.system, Storage::sorted), refresh_grid(mixed.system, Storage::kept);
+      for (MpmRun* run : {&sorted, &mixed}) {
+        System& s = run->system;
+        scatter(s, Scatter::momentum_and_force, Nodes::new_velocities, 0.01);
+        gather(s, Gather::velocity_and_rescatter, 0.01);
+        gather_and_update_stress(s, Gather::strain_and_position, 0.01);
+      }
+      CHECK(sorted.system.record.kinetic == mixed.system.record.kinetic);
+      CHECK(sorted.system.record.elastic == Approx(mixed.system.record.elastic).epsilon(1e-13));
+      const Particles &a = sorted.particles(), &b = mixed.particles();
+      std::vector<std::size_t> place(size);
+      for (std::size_t i = 0; i < size; ++i) place[b.identity[i]] = i;
+      for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t j = place[a.identity[i]];
+        for (std::size_t k = 0; k < 2; ++k) {
+          REQUIRE(a.position[k][i] == b.position[k][j]);
+          REQUIRE(a.velocity[k][i] == b.velocity[k][j]);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+          REQUIRE(a.stress[k][i] == b.stress[k][j]);
+          REQUIRE(a.elastic_strain[k][i] == b.elastic_strain[k][j]);
+        }
+      }
+    }
 }
