@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <new>
 
 #include "output/hdf5_driver.hpp"
 #include "output/hdf5_internal.hpp"
@@ -25,9 +26,21 @@ std::string reason_in(const std::string& description) {
   return description.substr(begin, description.find('\'', begin) - begin);
 }
 
+/// Makes sure that HDF5 will find memory: where it does not, HDF5 1.10 crashes in its own handling of errors.
+/// Throws std::bad_alloc.
+void require_spare_memory() {
+  constexpr std::size_t enough = std::size_t{32}
+                                 << 20;  // its caches and buffers, of which it has a few of 1 MB
+  ::operator delete(::operator new(enough));
+}
+
 /// HDF5 prints its error stack by default; here it goes into exceptions. (The setting belongs to the calling
-/// thread.) And a file must not lead into other files.
+/// thread.) A file must not lead into other files. And what HDF5 left open when memory ran out, it cannot
+/// close at the end.
 void set_up() {
+  require_spare_memory();
+  static const bool closes_at_exit = H5dont_atexit() < 0;
+  static_cast<void>(closes_at_exit);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
