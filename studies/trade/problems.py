@@ -95,7 +95,7 @@ def shapes(problem, quick):
     return ("linear",) if quick else problem.shapes
 
 
-def case(problem, shape, name, settings, quick, every=None, longest=60.0):
+def case(problem, shape, name, settings, quick, every=None, longest=300.0):
     end = {"time.end": 2e-6} if quick and problem is failure else {}
     output = {"output.every": every} if every else {"output.every": 1.0}
     return Case(f"{problem.key}-{shape}/{name}", problem.scene, {
