@@ -84,9 +84,8 @@ void require_memory(const Scene& scene, const SceneSize& size) {
   const bool of_factor = size.factor_memory > 0.5 * size.memory;
   throw InputError(fmt::format(
       "{}: found cells of {:g} m, with which the scene has {:.3g} particles (most of them, {:.3g}, in body "
-      "'{}') and "
-      "takes {} of memory{}; available are {}; expected larger cells, fewer particles_per_cell{} or smaller "
-      "bodies",
+      "'{}') and takes {} of memory{}; available are {}; expected larger cells, fewer particles_per_cell{} "
+      "or smaller bodies",
       scene.at("space.cell"), scene.cell, size.all_particles, *largest,
       scene.bodies[static_cast<std::size_t>(largest - size.particles.begin())].name, bytes_text(size.memory),
       of_factor ? fmt::format(", {} of it for a factorised matrix", bytes_text(size.factor_memory)) : "",
@@ -112,8 +111,8 @@ void require_time(const Scene& scene, const System& system, const Work& work, in
   if (work.seconds <= longest_run) return;
   throw InputError(
       fmt::format("{}: found {}{:.3g} steps of {} particles, which take about {} on {} thread{} (at {:g} "
-                  "particle-steps a second "
-                  "and thread); expected less than a year: longer steps, larger cells, or a nearer time.end",
+                  "particle-steps a second and thread); expected less than a year: longer steps, larger "
+                  "cells, or a nearer time.end",
                   scene.at(step_key(scene.integrator)), work.is_planned ? "" : "at least ", work.steps,
                   system.particle_count(), duration_text(work.seconds), threads, threads == 1 ? "" : "s",
                   particle_steps_a_second));

@@ -12,7 +12,11 @@ namespace vitrum::output {
 namespace {
 
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
-  if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  try {
+    if (depth == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
+  } catch (const std::bad_alloc&) {
+    return -1;  // no exception may cross HDF5
+  }
   return 0;
 }
 

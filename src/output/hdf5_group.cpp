@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 #include "output/hdf5_internal.hpp"
 
@@ -9,8 +10,12 @@ namespace vitrum::output {
 namespace {
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
-  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  return 0;
+  try {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return -1;  // no exception may cross HDF5
+  }
 }
 
 /// Attributes are read as they are stored: no conversion of what a foreign file may hold.

@@ -7,6 +7,7 @@
 
 #include "output/json_file.hpp"
 #include "output/result_reader.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -73,8 +74,9 @@ Json describe(const ResultReader& result) {
           {"series", series_of(result)}};
 }
 
+/// A text may hold anything, also what would give orders to a terminal.
 std::string plain(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? scene::single_line(value.get<std::string>()) : value.dump();
 }
 
 std::string readable(const Json& info) {

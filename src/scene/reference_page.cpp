@@ -30,6 +30,12 @@ Any key can be given on the command line, by its dotted path and as a TOML value
 missing list items are not. The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant`
 and the other way round.
 
+A scene is refused (status 2), by `check` and by `run` before either takes memory, when the estimate of its peak memory is more than
+the machine, `ulimit -v` or the control group has to give; when its steps would take longer than a year at 4e6 particle-steps a
+second and thread (a warning from a day on); and, by `run`, when its outputs do not fit onto the disk. The estimates are of bodies
+that stay together: fragments that fly apart take a block of grid (10 kB) each. `check` prints them; they are within a factor of 2.5 of what
+runs take. A file has at most 16 MB, a dotted key 64 parts, a polygon 10,000 vertices, the path of a point 1e8 rows.
+
 This page is printed by the program from the tables that its reader uses; do not edit it.
 )";
 
