@@ -3,7 +3,6 @@ command ends in time and within bounded memory, with status 4 or with the conten
 
 VITRUM_CORRUPTIONS is the number of damaged files (a longer campaign: VITRUM_CORRUPTIONS=5000).
 """
-import contextlib
 import os
 import random
 import resource
@@ -13,7 +12,7 @@ import unittest
 
 import damage
 import foreign
-from support import CommandLineTest, impact, overrides, program, read_result
+from support import CommandLineTest, impact, overrides, program
 
 corruptions = int(os.environ.get("VITRUM_CORRUPTIONS", 120))
 seconds = 20
@@ -78,8 +77,8 @@ class DamagedFiles(CommandLineTest):
 
     def test_resume_from_damaged_files(self):
         """The checkpoint is refused whatever its damage; what is damaged in the result is refused or stays an error."""
+        right = self.ask("compare", self.result, self.result, "--json")[1]
         for name in ("checkpoint.h5", "result.h5", "energy.csv"):
-            expected = read_result(self.good)
             for number, kind, data in self.damaged(self.good / name, max(corruptions // 6, 1)):
                 out = self.folder / f"resumed-{name}-{number}"
                 shutil.copytree(self.good, out)
@@ -90,11 +89,9 @@ class DamagedFiles(CommandLineTest):
                     if name == "checkpoint.h5" and changed != data:
                         self.assertEqual(status, 4)
                     elif name == "result.h5" and status == 0:
-                        with contextlib.suppress(OSError, RuntimeError):  # h5py's answers to a wrong checksum
-                            found = read_result(out)
-                            self.assertEqual(sorted(found), sorted(expected))
-                            for key, value in expected.items():
-                                self.assertEqual(value.tobytes(), found[key].tobytes(), key)
+                        status, text = self.ask("compare", self.result, out / "result.h5", "--json")
+                        if status == 0:
+                            self.assertEqual(text.replace(str(out / "result.h5"), str(self.result)), right)
                 shutil.rmtree(out)
 
     def test_foreign_files(self):

@@ -78,7 +78,7 @@ class FullDisk(CommandLineTest):
             self.skipTest("no mkfs.ext4")
         image = self.folder / "image"
         with open(image, "wb") as file:
-            file.truncate(16 << 20)
+            file.truncate(64 << 20)
         subprocess.run(["mkfs.ext4", "-q", "-m", "0", image], check=True, capture_output=True, env={"PATH": tools})
         with mounts.mounted(self.disk, "-o", "loop", image):
             for part in (0.02, 0.1, 0.3, 0.6, 0.9, 1.2, 1.5):

@@ -19,6 +19,11 @@ ascii_source = "\n".join(["<code_set_name> ANSI_X3.4-1968", "<comment_char> %", 
                           *(f"<U{code:04X}> /x{code:02x}" for code in range(128)), "END CHARMAP", ""])
 
 
+def without_memory(text):
+    """What the machine has left of memory differs from call to call."""
+    return "\n".join(line for line in text.splitlines() if "memory" not in line)
+
+
 class Locales(CommandLineTest):
     def comma(self, **more):
         """An environment with a locale of our own: the system need not have any."""
@@ -37,10 +42,10 @@ class Locales(CommandLineTest):
         texts = {file: (out / file).read_text() for file in ("energy.csv", "result.xdmf")}
         for command in (["check", impact], ["check", impact, "--json"], ["point", glass_point], ["compare", "OUT", "OUT"], ["reference"]):
             answer = self.vitrum(*(out if argument == "OUT" else argument for argument in command), env=environment)
-            texts[str(command)] = answer.stdout.replace(str(out), "OUT") + answer.stderr
+            texts[str(command)] = without_memory(answer.stdout.replace(str(out), "OUT") + answer.stderr)
         texts["progress"] = run.stderr
         texts["bad number"] = self.vitrum("check", impact, "--set", "space.cell=1,5", status=2, env=environment).stderr
-        texts["--set"] = self.vitrum("check", impact, "--set", "material.glass.young=72000000000.125", env=environment).stdout
+        texts["--set"] = without_memory(self.vitrum("check", impact, "--set", "material.glass.young=72000000000.125", env=environment).stdout)
         return out, texts
 
     def assert_same_answers(self, found, expected):

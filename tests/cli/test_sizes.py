@@ -113,7 +113,7 @@ class Estimates(CommandLineTest):
         for scene, arguments in ((impact, []), (impact, overrides(space__cell=5e-4, integrator__step=1e-8)), (plane_strain, []),
                                  (impact, overrides(output__every=1e-7, output__checkpoint_every=1e-5))):
             estimate = json.loads(self.vitrum("check", scene, "--json", *arguments).stdout)["disk_bytes"]
-            out = self.run_scene("out", "--quiet", *arguments, scene=scene)
+            out = self.run_scene("out", "--quiet", "--force", *arguments, scene=scene)
             taken = 2 * sum((out / name).stat().st_size for name in ("result.h5", "checkpoint.h5", "result.xdmf") if (out / name).exists())
             with self.subTest(scene=scene.name, arguments=arguments, estimate=estimate, taken=taken):
                 self.assertTrue(0.6 * taken < estimate < 3.0 * taken)
