@@ -72,7 +72,7 @@ def required_cases(quick):
     step = float(settings[1].split("=")[1])
     steps = 20 if quick else 400
     cases = [runs.Case("elastic, axisymmetric", runs.bar, settings),
-             runs.Case("plane strain (no hoop terms)", runs.bar, [*settings, 'space.geometry="plane-strain"'])]
+             runs.Case("plane strain (no hoop terms)", runs.bar, [*settings, 'space.geometry="plane-strain"', 'boundary.0.fix.0="y"'])]
     cases += [runs.Case(f"with {name}, never reached", runs.bar, settings + more) for name, more in models.items()]
     cases += [runs.Case("with 4 outputs of all fields", runs.bar, [*settings, f"output.every={step * steps / 4!r}"], fields=True),
               runs.Case("gimp", runs.bar, [*settings, 'space.shape_functions="gimp"']),
