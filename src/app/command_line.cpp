@@ -25,11 +25,13 @@ namespace {
 constexpr const char* out_of_memory =
     "error: out of memory; of a run, reduce the number of particles (space.cell, particles_per_cell)\n";
 
-/// Where memory runs out in a function that must not throw (destructors of JSON values allocate), no handler
-/// is reached.
+/// Where memory runs out in a function that must not throw (destructors of JSON values allocate, and toml++
+/// does while it unwinds: then there is no exception to be asked), no handler is reached.
 [[noreturn]] void end_without_handler() {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+    std::fputs("error: cannot go on, most likely because memory has run out\n", stderr);
+    std::_Exit(exit_computation);
   } catch (const std::bad_alloc&) {
     std::fputs(out_of_memory, stderr);
     std::_Exit(exit_computation);

@@ -136,8 +136,9 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
 }
 
 void require_disk(const Scene& scene, double bytes, const std::filesystem::path& folder) {
-  // A disk that is too full for a run of ordinary size is no mistake of the scene's: it may be emptied in time, and a
-  // run that meets its end leaves what it has, with a checkpoint where there is room, and status 4.
+  // A disk that is too full for a run of ordinary size is no mistake of the scene's: it may be emptied in
+  // time, and a run that meets its end leaves what it has, with a checkpoint where there is room, and
+  // status 4.
   constexpr double ordinary = 1e11;
   if (bytes <= ordinary) return;
   double available = available_disk(folder);

@@ -86,6 +86,13 @@ File ResultFile::open_shadow() const {
     }
   }
   std::filesystem::copy_file(path_, shadow_, failure);
+  if (failure == std::errc::io_error) {
+    // The library's name for a copy that came out shorter.
+    std::error_code unknown;
+    if (std::filesystem::space(shadow_.parent_path(), unknown).available <
+        std::filesystem::file_size(path_, unknown))
+      failure = std::make_error_code(std::errc::no_space_on_device);
+  }
   if (failure)
     throw FileError(
         fmt::format("{}: cannot copy to {}: {}", path_.string(), shadow_.string(), failure.message()));

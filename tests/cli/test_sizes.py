@@ -145,7 +145,7 @@ class Estimates(CommandLineTest):
         if child == 0:
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, 1), os.dup2(nowhere, 2)
-            os.execv(program, [program, "run", str(impact), "--out", str(self.folder / "peak"), "--threads", "1", *map(str, arguments)])
+            os.execv(program, [program, "run", str(impact), "--out", str(self.folder / "peak"), "--force", "--threads", "1", *map(str, arguments)])
         _, status, usage = os.wait4(child, 0)
         self.assertEqual(status, 0)
         return usage.ru_maxrss * 1024
