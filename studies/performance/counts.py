@@ -22,7 +22,7 @@ nodes = 30
 double = 8
 bytes_scatter = (2 + 2 + 1 + 4) * double  # position, velocity, mass, stress
 bytes_velocity = (2 + 1 + 2 + 2) * double  # position, mass, velocity read and written
-bytes_strain = (2 * 2 + 2 * 5 + 1 + 2 * 4 + 2 * 4) * double  # position, increments, mass, strain read and written, stress
+bytes_strain = (2 * 2 + 1 + 2 * 4 + 2 * 4) * double  # position, mass, strain, all read and written but the mass; stress
 
 
 def flops(particles_per_cell):

@@ -10,6 +10,7 @@ script runs. Run it on a quiet machine: it times.
 import argparse
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -39,7 +40,7 @@ def run_benchmarks(build, out, repetitions, quick):
     for entry in entries:
         if entry["run_type"] == "iteration":
             by_name.setdefault(entry["run_name"], []).append(entry)
-    return by_name
+    return dict(sorted(by_name.items(), key=lambda item: [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", item[0])]))
 
 
 def main():

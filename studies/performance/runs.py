@@ -1,9 +1,9 @@
 """Timed runs of the program: medians of interleaved repetitions, so that a slow minute of the machine meets all of them."""
 import json
-import os
 import pathlib
 import statistics
 import subprocess
+import sys
 import tempfile
 
 here = pathlib.Path(__file__).resolve().parent
@@ -35,15 +35,12 @@ def once(program, case):
             command += ["--no-fields"]
         for setting in case.settings:
             command += ["--set", setting]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        errors = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode != 0:
-            raise SystemExit(f"{case.name}: exit status {process.returncode}\n{errors}")
+        done = subprocess.run([sys.executable, "-I", "-S", here / "launch.py", *command], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{case.name}: exit status {done.returncode}\n{done.stderr}")
         summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
     return {"seconds": summary["wall_seconds"], "particles": summary["particles"], "steps": summary["integrator"]["steps"],
-            "memory": usage.ru_maxrss * 1024}
+            "memory": int(done.stdout)}
 
 
 class Timing:
