@@ -7,6 +7,7 @@ import os
 import resource
 import shutil
 import subprocess
+import time
 import unittest
 
 import mounts
@@ -127,7 +128,11 @@ class ReadOnly(CommandLineTest):
             process = self.start("run", impact, "--out", disk / "out", *settings)
             self.wait_for_outputs(process, 4)
             with mounts.mounted(disk / "out", "--bind", disk / "out"):
-                subprocess.run(["mount", "-o", "remount,bind,ro", disk / "out"], check=True)
+                # (Busy while the run has a file of it open.)
+                for _ in range(1000):
+                    if subprocess.run(["mount", "-o", "remount,bind,ro", disk / "out"], capture_output=True).returncode == 0:
+                        break
+                    time.sleep(0.002)
                 message = process.stderr.read().splitlines()[-1]
                 self.assertEqual(process.wait(), 4, message)
                 self.assertRegex(message, "error: .*Read-only file system")
