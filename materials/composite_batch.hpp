@@ -152,7 +152,7 @@ double Composite<D, Y, C>::take_inelastic(const ParticleColumns& p, std::size_t 
     integrator->integrate(*this, s, strain, duration, point);
     report.solver += point.solver;
     if (point.failed()) {
-      if (!report.failed) report.failed = i, report.cause = point.cause;
+      report.failed = i, report.cause = point.cause;
       return 0.0;
     }
   }
@@ -200,6 +200,7 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
     if (stays_elastic(s, elastic_end, duration)) continue;
     stored += take_elastic(p, elastic_from, i);
     stored += take_inelastic(p, i, s, duration, integrator, point, report);
+    if (report.failed) return;  // the step fails, whatever comes after
     elastic_from = i + 1;
   }
   stored += take_elastic(p, elastic_from, end);

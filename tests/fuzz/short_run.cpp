@@ -19,7 +19,7 @@
 namespace vitrum::fuzz {
 namespace {
 
-constexpr double most_particles = 300.0;
+constexpr double most_particles = 150.0;
 constexpr int most_steps = 3;
 
 bool is_small(const Scene& scene) {
