@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -56,6 +57,14 @@ void Descriptor::write(std::string_view text) {
     if (written < 0) fail("write", errno);
     text.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+void Descriptor::write_all_of(const Descriptor& source) {
+  constexpr std::size_t at_a_time = std::size_t{1} << 30;
+  ssize_t written = 0;
+  do written = sendfile(number_, source.number_, nullptr, at_a_time);
+  while (written > 0 || (written < 0 && errno == EINTR));
+  if (written < 0) fail(fmt::format("copy {} to it", source.path_.string()), errno);
 }
 
 void Descriptor::truncate(std::uint64_t bytes) {

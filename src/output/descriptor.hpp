@@ -19,6 +19,8 @@ class Descriptor {
   int number() const { return number_; }
   std::uint64_t size() const;
   void write(std::string_view text);
+  /// Writes all that `source` still has to read.
+  void write_all_of(const Descriptor& source);
   void truncate(std::uint64_t bytes);
   /// Forces what was written to disk.
   void sync();

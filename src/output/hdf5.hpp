@@ -131,6 +131,7 @@ class File {
 
  private:
   File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle);
+  static File open(const std::filesystem::path& path, unsigned flags, const std::string& action);
 
   std::string path_;
   std::unique_ptr<int> failure_;  ///< errno of the first write that failed, or 0; must outlive the handle

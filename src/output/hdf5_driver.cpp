@@ -61,6 +61,11 @@ auto uninterrupted(Call&& call) {
   return result;
 }
 
+/// Tells HDF5 why the system has refused; errno says it.
+void push_reason(hid_t kind) {
+  H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_VFL, kind, "%s", std::strerror(errno));
+}
+
 H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) {
   const int how = O_CLOEXEC | (flags & H5F_ACC_RDWR ? O_RDWR : O_RDONLY) |
                   (flags & H5F_ACC_TRUNC ? O_TRUNC : 0) | (flags & H5F_ACC_CREAT ? O_CREAT : 0) |
@@ -68,8 +73,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) {
   struct stat status {};
   const int descriptor = uninterrupted([&] { return ::open(name, how, 0666); });
   if (descriptor < 0 || fstat(descriptor, &status) != 0) {
-    H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_FILE, H5E_CANTOPENFILE, "%s",
-             std::strerror(errno));
+    push_reason(H5E_CANTOPENFILE);
     if (descriptor >= 0) ::close(descriptor);
     return nullptr;
   }
@@ -139,8 +143,7 @@ herr_t read_bytes(H5FD_t* opened, H5FD_mem_t, hid_t, haddr_t begin, std::size_t 
     const ssize_t count = uninterrupted(
         [&] { return pread(file.descriptor, bytes + done, size - done, static_cast<off_t>(begin + done)); });
     if (count < 0) {
-      H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_READERROR, "%s",
-               std::strerror(errno));
+      push_reason(H5E_READERROR);
       return -1;
     }
     if (count == 0) break;
@@ -191,9 +194,10 @@ herr_t truncate_file(H5FD_t* opened, hid_t, hbool_t) {
 
 /// Locks where the file system can, does without where it cannot.
 herr_t lock_file(H5FD_t* file, hbool_t exclusive) {
-  const bool taken =
-      flock(of(file).descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  return taken ? -1 : 0;
+  if (flock(of(file).descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    return 0;
+  push_reason(H5E_CANTLOCKFILE);
+  return -1;
 }
 
 herr_t unlock_file(H5FD_t* file) {
@@ -231,7 +235,7 @@ H5FD_class_t make_class() {
 
 }  // namespace
 
-Handle writing_properties(int& failure, const std::string& where) {
+Handle file_properties(int& failure, const std::string& where) {
   static const H5FD_class_t driver_class = make_class();
   static const hid_t driver = checked(H5FDregister(&driver_class), where, "register the file driver");
   Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, where, "set file access");

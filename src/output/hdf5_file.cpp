@@ -20,16 +20,6 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-/// Where the system refused, HDF5 describes the whole call over several lines; the system's reason is what
-/// counts.
-std::string reason_in(const std::string& description) {
-  constexpr std::string_view before = "error message = '";
-  const std::size_t found = description.find(before);
-  if (found == std::string::npos) return description;
-  const std::size_t begin = found + before.size();
-  return description.substr(begin, description.find('\'', begin) - begin);
-}
-
 /// Makes sure that HDF5 will find memory: where it does not, HDF5 1.10 crashes in its own handling of errors.
 /// Throws std::bad_alloc.
 void require_spare_memory() {
@@ -49,16 +39,12 @@ void set_up() {
   if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
 
-Handle with_format_and_locks(Handle access, const std::string& path) {
+Handle access_properties(int& failure, const std::string& path) {
+  Handle access = file_properties(failure, path);
   checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "set file format");
-  // Lock where the file system can, do without where it cannot.
   checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
   return access;
-}
-
-Handle open(const std::string& name, unsigned flags, const Handle& access, const std::string& action) {
-  return own(H5Fopen(name.c_str(), flags, access.id()), H5Fclose, name, action);
 }
 
 }  // namespace
@@ -67,8 +53,8 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &reason);
   H5Eclear2(H5E_DEFAULT);
-  throw Hdf5Error(scene::single_line(fmt::format("{}: cannot {}: {}", where, action,
-                                                 reason.empty() ? "unknown HDF5 error" : reason_in(reason))));
+  throw Hdf5Error(scene::single_line(
+      fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason)));
 }
 
 File::File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle)
@@ -84,29 +70,28 @@ File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
   if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
   auto failure = std::make_unique<int>(0);
-  const Handle access = with_format_and_locks(writing_properties(*failure, name), name);
+  const Handle access = access_properties(*failure, name);
   return File(path, std::move(failure),
               own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, name,
                   "create the file"));
 }
 
 File File::open_to_read(const std::filesystem::path& path) {
-  set_up();
-  require_regular_file(path);
-  const std::string name = path.string();
-  const Handle access =
-      with_format_and_locks(own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "set file access"), name);
-  return File(path, std::make_unique<int>(0), open(name, H5F_ACC_RDONLY, access, "open the file as HDF5"));
+  return open(path, H5F_ACC_RDONLY, "open the file as HDF5");
 }
 
 File File::open_to_write(const std::filesystem::path& path) {
+  return open(path, H5F_ACC_RDWR, "open the file as HDF5 for writing");
+}
+
+File File::open(const std::filesystem::path& path, unsigned flags, const std::string& action) {
   set_up();
   require_regular_file(path);
   const std::string name = path.string();
   auto failure = std::make_unique<int>(0);
-  const Handle access = with_format_and_locks(writing_properties(*failure, name), name);
-  Handle file = open(name, H5F_ACC_RDWR, access, "open the file as HDF5 for writing");
-  return File(path, std::move(failure), std::move(file));
+  const Handle access = access_properties(*failure, name);
+  return File(path, std::move(failure),
+              own(H5Fopen(name.c_str(), flags, access.id()), H5Fclose, name, action));
 }
 
 void File::close() {

@@ -1,11 +1,13 @@
 #include "output/result_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "output/atomic_file.hpp"
+#include "output/descriptor.hpp"
 #include "output/result_layout.hpp"
 
 namespace vitrum::output {
@@ -85,20 +87,9 @@ File ResultFile::open_shadow() const {
       remove_file(shadow_);
     }
   }
-  std::filesystem::copy_file(path_, shadow_, failure);
-  if (failure == std::errc::io_error) {
-    // The library's name for a copy that came out shorter.
-    std::error_code unknown;
-    if (std::filesystem::space(shadow_.parent_path(), unknown).available <
-        std::filesystem::file_size(path_, unknown))
-      failure = std::make_error_code(std::errc::no_space_on_device);
-  }
-  if (failure)
-    throw FileError(
-        fmt::format("{}: cannot copy to {}: {}", path_.string(), shadow_.string(), failure.message()));
-  // The copy of a write-protected result must be writable.
-  std::filesystem::permissions(shadow_, std::filesystem::perms::owner_write,
-                               std::filesystem::perm_options::add, failure);
+  Descriptor copy(shadow_, O_WRONLY | O_CREAT | O_EXCL);
+  copy.write_all_of(Descriptor(path_, O_RDONLY));
+  copy.close();
   return File::open_to_write(shadow_);
 }
 

@@ -1,11 +1,12 @@
 """A second run into the same folder: refused unless it continues (--resume) or replaces (--force) the first, and always
 while that is under way."""
+import errno
 import signal
 import subprocess
 import unittest
 
 import h5py
-from support import CommandLineTest, impact, output_count, overrides, program, read_summary
+from support import CommandLineTest, impact, output_count, overrides, preload, preloaded, program, read_summary
 
 long = overrides(integrator__step=4e-9, output__every=2e-6)
 checkpoints = overrides(output__checkpoint_every=4e-6)
@@ -147,6 +148,16 @@ class UnderWay(CommandLineTest):
         self.assertTrue((out / ".vitrum.lock").exists())
         self.run_scene("out", "--force")
         self.assertFalse((out / ".vitrum.lock").exists())
+
+    @unittest.skipIf(preload is None, "VITRUM_PRELOAD is not set")
+    def test_file_system_without_locks(self):
+        whole = self.run_scene("whole")
+        for reason in (errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP):
+            out = self.folder / f"out{reason}"
+            answer = self.vitrum("run", impact, "--out", out, "--quiet", env=preloaded(LOCKS_FAIL=reason))
+            self.assertIn(f"warning: {out}: this file system has no locks; nothing keeps a second run out", answer.stderr)
+            self.assert_same_results(out, whole)
+            self.assertFalse((out / ".vitrum.lock").exists())
 
     def test_at_the_same_moment(self):
         """Of several runs that start together one gets the folder, and is not disturbed."""

@@ -6,8 +6,10 @@
 //   FAULT=NUMBER      the call fails with this errno
 //   FAULT_LASTS=1     so do all later calls that take space
 //   FAULT_LOG=FILE    the names of all such calls, a line each, are left there at the end
+//   LOCKS_FAIL=NUMBER every flock fails with this errno, as on file systems that have no locks
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
@@ -157,4 +159,12 @@ extern "C" int remove(const char* path) noexcept {
 extern "C" int mkdir(const char* path, mode_t mode) noexcept {
   REAL(mkdir);
   return fails("mkdir", true) ? -1 : real(path, mode);
+}
+
+extern "C" int flock(int file, int operation) noexcept {
+  static const int refusal = std::atoi(setting("LOCKS_FAIL", "0"));
+  REAL(flock);
+  if (refusal == 0) return real(file, operation);
+  errno = refusal;
+  return -1;
 }

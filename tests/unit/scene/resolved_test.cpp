@@ -20,10 +20,7 @@ void require_round_trip(const Scene& scene) {
 }
 
 Scene reference() {
-  // The tests are compiled from an absolute path below the project root, which therefore needs no
-  // configuration here.
-  const std::filesystem::path root = std::filesystem::path(__FILE__).parent_path() / "../../..";
-  return read_scene(root / "studies/paper/reference.toml");
+  return read_scene(std::filesystem::path(VITRUM_SOURCE_DIR) / "studies/paper/reference.toml");
 }
 
 }  // namespace
