@@ -49,7 +49,7 @@ def program():
 
 def run_command(case, folder):
     """The arguments of a run. Threads stay at one: cases run side by side."""
-    return [str(program()), "run", str(studies / case.scene), "--out", str(folder), "--quiet", "--threads", "1",
+    return [str(program()), "run", str(studies / case.scene), "--out", str(folder), "--force", "--quiet", "--threads", "1",
             *([] if case.fields else ["--no-fields"]), *case.overrides()]
 
 

@@ -72,9 +72,7 @@ def run(case, runs):
 
 def _compute(case, folder, stamp):
     folder.mkdir(parents=True, exist_ok=True)
-    for old in folder.iterdir():
-        if old.is_file():
-            old.unlink()
+    (folder / "outcome.json").unlink(missing_ok=True)
     start = time.perf_counter()
     try:
         done = subprocess.run(stamp["command"], capture_output=True, text=True, timeout=case.longest)
