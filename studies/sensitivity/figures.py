@@ -26,6 +26,8 @@ def question(title, ensembles, members, found, base, folder, name):
             axes.bar(n, scale * (stats["median_high"] - stats["median_low"]), bottom=scale * stats["median_low"], width=0.6, color=colours[0], alpha=0.45, linewidth=0)
             axes.plot([n - 0.3, n + 0.3], 2 * [scale * stats["median"]], color=colours[0], linewidth=1.6)
             axes.plot(n + random.uniform(-0.18, 0.18, values.size), values, linestyle="", marker=".", markersize=3, color="black", alpha=0.6)
+        axes.use_sticky_edges = False
+        axes.margins(y=0.15)
         axes.set_title(label)
         axes.set_ylabel(unit or "number")
         axes.set_xlim(-0.6, len(ensembles) - 0.4)
