@@ -6,22 +6,12 @@
 #include <random>
 
 #include "scene/shape_measures.hpp"
+#include "scene/shapes.hpp"
 #include "tests/catch.hpp"
 
 using namespace vitrum;
 
 namespace {
-
-/// Even-odd rule, point by point.
-bool inside(const Polygon& p, const Vector2& x) {
-  bool in = false;
-  for (std::size_t i = 0, j = p.vertices.size() - 1; i < p.vertices.size(); j = i++) {
-    const Vector2 &a = p.vertices[i], &b = p.vertices[j];
-    if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
-      in = !in;
-  }
-  return in;
-}
 
 /// A star about the origin, whose rows enter and leave it many times.
 Polygon star(std::mt19937& random, int corners) {
@@ -45,7 +35,7 @@ TEST_CASE("Rows of particles fill a polygon as the even-odd rule does point by p
       std::vector<Vector2> expected;
       for (int j = -40; j < 40; ++j)
         for (int i = -40; i < 40; ++i)
-          if (const Vector2 x{(i + 0.5) * spacing, (j + 0.5) * spacing}; inside(polygon, x))
+          if (const Vector2 x{(i + 0.5) * spacing, (j + 0.5) * spacing}; contains(Shape(polygon), x))
             expected.push_back(x);
       std::vector<Vector2> found;
       for (const Seed& seed : seed_shape(polygon, spacing, 1)) found.push_back(seed.position);

@@ -1,0 +1,106 @@
+#pragma once
+#include "mpm/axis.hpp"
+#include "mpm/chunk.hpp"
+#include "mpm/pack.hpp"
+#include "mpm/tile.hpp"
+#include "mpm/transfer.hpp"
+
+/// What the passes from nodes to particles need of the nodes, settled at compile time, and how it is brought
+/// to the particles.
+namespace vitrum::mpm {
+
+/// What a node offers, as one pack: first the vector whose gradient or change is wanted, then the one that
+/// moves particles (for rates: the acceleration).
+enum class First { velocity, change };
+
+template <Gather what>
+struct Plan {
+  static constexpr bool strain =
+      what == Gather::strain || what == Gather::strain_and_position || what == Gather::all_from_new;
+  static constexpr bool velocity = what == Gather::velocity || what == Gather::velocity_and_position ||
+                                   what == Gather::all_from_new || what == Gather::velocity_and_rescatter;
+  static constexpr bool rescatter = what == Gather::velocity_and_rescatter;
+  static constexpr bool position = what == Gather::position || what == Gather::velocity_and_position ||
+                                   what == Gather::all_from_new || what == Gather::strain_and_position;
+  static constexpr bool rates = false, gradient = strain;
+  static constexpr First first = velocity ? First::change : First::velocity;
+  static constexpr int width = position ? 4 : 2;
+  static constexpr int gradient_of =
+      what == Gather::all_from_new ? 2 : 0;  ///< place of the vector in the pack
+};
+
+/// Plans of the passes that leave the particles as they are.
+struct RatesPlan {
+  static constexpr bool strain = false, velocity = false, rescatter = false, position = false, rates = true,
+                        gradient = true;
+  static constexpr First first = First::velocity;
+  static constexpr int width = 4, gradient_of = 0;
+};
+struct GradientPlan {
+  static constexpr bool strain = false, velocity = false, rescatter = false, position = false, rates = false,
+                        gradient = true;
+  static constexpr First first = First::velocity;
+  static constexpr int width = 2, gradient_of = 0;
+};
+
+/// The nodes of a tile as one plan sees them.
+template <class P>
+class NodePacks {
+ public:
+  NodePacks(const Grid& grid, const Block& block, bool at_axis) {
+    const double* v[] = {grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
+    const double* w[] = {grid.field(Field::new_velocity_0), grid.field(Field::new_velocity_1)};
+    double* to = reinterpret_cast<double*>(nodes_);
+    for (std::size_t c = 0; c < 2; ++c) {
+      load_tile(
+          block, [&](std::size_t n) { return P::first == First::velocity ? v[c][n] : w[c][n] - v[c][n]; },
+          [&](std::size_t entry, double value) { to[P::width * entry + c] = value; });
+      if constexpr (P::width == 4)
+        load_tile(
+            block, [&](std::size_t n) { return w[c][n]; },
+            [&](std::size_t entry, double value) { to[P::width * entry + 2 + c] = value; });
+    }
+    if (at_axis) mirror_axis(nodes_, axis_parity<P::width>);
+  }
+  const Pack<P::width>& operator[](std::size_t entry) const { return nodes_[entry]; }
+
+ private:
+  Pack<P::width> nodes_[tile_nodes];
+};
+
+/// Nodal packs interpolated at the particles of a chunk, and (plans with a gradient) their h d/dr and h d/dz.
+template <class P>
+class Interpolated {
+ public:
+  template <class Stencils>
+  void gather(const Stencils& at, std::size_t size, const NodePacks<P>& nodes) {
+    for (std::size_t k = 0; k < size; ++k) {
+      Pack<P::width> value{}, r{}, z{};
+      for (std::size_t b = 0; b < at.count; ++b)
+        for (std::size_t a = 0; a < at.count; ++a) {
+          const Pack<P::width>& node = nodes[at.entry(k) + b * tile_columns + a];
+          value += at.value(0, a, k) * at.value(1, b, k) * node;
+          if constexpr (P::gradient) {
+            r += at.slope(0, a, k) * at.value(1, b, k) * node;
+            z += at.value(0, a, k) * at.slope(1, b, k) * node;
+          }
+        }
+      value_[k] = value;
+      if constexpr (P::gradient) r_[k] = r, z_[k] = z;
+    }
+  }
+
+  /// Component `place` of the k-th pack is at [width k + place].
+  const double* values() const { return reinterpret_cast<const double*>(value_); }
+  /// The same for the plan's gradient: h d/dr and h d/dz of a vector's components 0 and 1; and the vector
+  /// itself.
+  const double* along_r() const { return reinterpret_cast<const double*>(r_) + P::gradient_of; }
+  const double* along_z() const { return reinterpret_cast<const double*>(z_) + P::gradient_of; }
+  const double* differentiated() const { return values() + P::gradient_of; }
+
+ private:
+  Pack<P::width> value_[Chunk::capacity];
+  Pack<P::width> r_[P::gradient ? Chunk::capacity : 1], z_[P::gradient ? Chunk::capacity : 1];
+};
+
+}  // namespace vitrum::mpm
