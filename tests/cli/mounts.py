@@ -25,13 +25,14 @@ needs_mounts = unittest.skipUnless(allowed, "this user may not mount file system
 
 @contextlib.contextmanager
 def mounted(folder, *arguments):
-    """Mounts on `folder`, for as long as the block runs; yields a function that changes options of the mount. Skips the test
+    """Mounts on `folder`, for as long as the block runs; yields a function that changes options of a tmpfs. Skips the test
     where the system has no such file system."""
     folder.mkdir(exist_ok=True)
     done = subprocess.run(["mount", *map(str, arguments), str(folder)], capture_output=True, text=True)
     if done.returncode != 0:
         raise unittest.SkipTest(done.stderr.strip())
     try:
-        yield lambda options: subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)
+        # With type and source: the options that mount would otherwise look up name users that are unknown in here.
+        yield lambda options: subprocess.run(["mount", "-t", "tmpfs", "-o", f"remount,{options}", "none", str(folder)], check=True)
     finally:
         subprocess.run(["umount", str(folder)], check=True)
