@@ -147,9 +147,9 @@ class Composite final : public Material {
   /// A softening plane: what drives it, and per unit of lambda: strain of the jump, stiffness and fall of
   /// strength (Pa).
   struct Softening {
-    PlaneDrive drive;
-    SymmetricTensor jump;
-    double stiffness, slope, strength;
+    PlaneDrive drive{};
+    SymmetricTensor jump{};
+    double stiffness = 0.0, slope = 0.0, strength = 0.0;
   };
   static constexpr bool surface_acts(bool tension);
   SymmetricTensor yield_gradient(const PointState& s, const Moduli& moduli) const;

@@ -49,7 +49,7 @@ CvodeSolver::CvodeSolver(const Context& context, std::size_t size, CvodeMethod m
     require(CVodeSetNonlinearSolver(m, fixed_point_.get()) == 0, "nonlinear solver");
   }
   require(CVodeRootInit(m, roots, root_functions) == CV_SUCCESS, "roots");
-  std::array<int, roots> upwards;
+  std::array<int, roots> upwards{};
   upwards.fill(1);
   CVodeSetRootDirection(m, upwards.data());
   CVodeSetNoInactiveRootWarn(m);

@@ -14,13 +14,27 @@ class Chunk {
  public:
   static constexpr std::size_t capacity = 64;
 
-  Chunk(const std::uint32_t* list, std::size_t size, bool contiguous)
-      : list_(list), size_(size), contiguous_(contiguous) {}
+  Chunk(const std::uint32_t* list, std::size_t size)
+      : list_(list), size_(size), contiguous_(consecutive(list, size)) {}
 
-  std::size_t size() const { return size_; }
-  bool contiguous() const { return contiguous_; }
+  /// Whether the particles of a list lie one behind the other in their columns.
+  static bool consecutive(const std::uint32_t* list, std::size_t size) {
+    std::uint32_t gaps = 0;
+#pragma omp simd reduction(| : gaps)
+    for (std::size_t k = 1; k < size; ++k) gaps |= list[k] - list[k - 1] - 1;
+    return gaps == 0;
+  }
+
+  std::size_t size() const {
+    return size_;
+  }
+  bool contiguous() const {
+    return contiguous_;
+  }
   /// Place of the k-th particle in its columns.
-  std::size_t place(std::size_t k) const { return list_[k]; }
+  std::size_t place(std::size_t k) const {
+    return list_[k];
+  }
 
  private:
   const std::uint32_t* list_;
@@ -33,7 +47,7 @@ template <class F>
 void for_chunks(const Grid& grid, std::size_t tile, std::size_t body, F&& f) {
   const Grid::Range range = grid.particles(tile, body);
   for (const std::uint32_t* at = range.begin; at < range.end; at += Chunk::capacity)
-    f(Chunk(at, std::min(static_cast<std::size_t>(range.end - at), Chunk::capacity), range.contiguous));
+    f(Chunk(at, std::min(static_cast<std::size_t>(range.end - at), Chunk::capacity)));
 }
 
 /// What a chunk reads of a column: the column itself where the particles lie one behind the other, else a

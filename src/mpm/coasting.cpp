@@ -19,7 +19,7 @@ bool overlap(const CellBox& a, const CellBox& b) {
 }
 
 CellBox cells_of(const Coasting& body, double cell) {
-  CellBox box;
+  CellBox box{};
   for (std::size_t k = 0; k < 2; ++k)
     box.first[k] = std::floor(body.lowest[k] / cell), box.last[k] = std::floor(body.highest[k] / cell);
   return box;

@@ -91,6 +91,57 @@ void enter(StepRecord& record, std::size_t body, const BatchReport& report) {
   for (const ParticleEvent& e : report.events) record.events.push_back({body, e.particle, e.event});
 }
 
+/// The columns from `place` on, of an increment that is committed: ends and starts are the same arrays.
+void advance(ParticleColumns& c, std::size_t place) {
+  const auto all = [place](auto& pointers) {
+    for (auto& pointer : pointers)
+      if (pointer != nullptr) pointer += place;
+  };
+  all(c.start_strain), all(c.start_variables), all(c.elastic_strain), all(c.stress), all(c.variables);
+  c.mass += place;
+}
+
+/// Columns of a chunk whose particles lie apart, brought together for an increment that is committed.
+class Collected {
+ public:
+  ParticleColumns from(const ParticleColumns& columns, const Chunk& chunk) {
+    ParticleColumns c = columns;
+    double(*free)[Chunk::capacity] = values_;
+    for_each(c, [&](double*& column) {
+      double* copy = *free++;
+      for (std::size_t k = 0; k < chunk.size(); ++k) copy[k] = column[chunk.place(k)];
+      column = copy;
+    });
+    for (std::size_t k = 0; k < 4; ++k) c.start_strain[k] = c.elastic_strain[k];
+    for (std::size_t k = 0; k < variable_count; ++k) c.start_variables[k] = c.variables[k];
+    for (std::size_t k = 0; k < chunk.size(); ++k) mass_[k] = columns.mass[chunk.place(k)];
+    c.mass = mass_;
+    return c;
+  }
+
+  void put_back(ParticleColumns columns, const Chunk& chunk) const {
+    const double(*next)[Chunk::capacity] = values_;
+    for_each(columns, [&](double* column) {
+      const double* copy = *next++;
+      for (std::size_t k = 0; k < chunk.size(); ++k) column[chunk.place(k)] = copy[k];
+    });
+  }
+
+ private:
+  /// What an increment changes.
+  template <class Call>
+  static void for_each(ParticleColumns& c, Call&& call) {
+    const auto all = [&](auto& columns) {
+      for (auto& column : columns)
+        if (column != nullptr) call(column);
+    };
+    all(c.elastic_strain), all(c.stress), all(c.variables);
+  }
+
+  double values_[8 + variable_count][Chunk::capacity];
+  double mass_[Chunk::capacity];
+};
+
 }  // namespace
 
 StressUpdate::StressUpdate(System& system, double duration)
@@ -103,37 +154,32 @@ StressUpdate::StressUpdate(System& system, double duration)
 void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
                         const ChunkIncrements& increments) {
   BatchReport& report = reports_[tile * columns_.size() + body];
-  for (std::size_t first = 0, end; first < chunk.size(); first = end) {
-    end = first + 1;
-    while (end < chunk.size() && chunk.place(end) == chunk.place(end - 1) + 1) ++end;
-    take_run(report, body, chunk.place(first), end - first, increments, first);
-  }
-}
-
-/// Particles [place, place + size) of a body, whose increments begin at `first` of the chunk's.
-void StressUpdate::take_run(BatchReport& report, std::size_t body, std::size_t place, std::size_t size,
-                            const ChunkIncrements& increments, std::size_t first) {
   ParticleColumns c = columns_[body];
-  const auto advance = [place](auto& pointers) {
-    for (auto& pointer : pointers)
-      if (pointer != nullptr) pointer += place;
-  };
-  advance(c.start_strain), advance(c.start_variables), advance(c.elastic_strain), advance(c.stress);
-  advance(c.variables);
-  c.mass += place;
-  for (std::size_t k = 0; k < 4; ++k) c.strain_increment[k] = increments.strain[k] + first;
-  c.spin_increment = increments.spin + first;
+  for (std::size_t k = 0; k < 4; ++k) c.strain_increment[k] = increments.strain[k];
+  c.spin_increment = increments.spin;
   const std::size_t known_events = report.events.size();
   const bool had_failed = report.failed.has_value();
-  system_.local->integrate(*system_.bodies[body].material, c, 0, size, duration_, report);
-  for (std::size_t k = known_events; k < report.events.size(); ++k) report.events[k].particle += place;
+  const auto integrate = [&](const ParticleColumns& columns) {
+    system_.local->integrate(*system_.bodies[body].material, columns, 0, chunk.size(), duration_, report);
+  };
+  if (chunk.contiguous()) {
+    advance(c, chunk.place(0));
+    integrate(c);
+  } else {
+    // Sums over a chunk must not depend on how its particles lie.
+    Collected collected;
+    integrate(collected.from(c, chunk));
+    collected.put_back(c, chunk);
+  }
+  for (std::size_t k = known_events; k < report.events.size(); ++k)
+    report.events[k].particle = chunk.place(report.events[k].particle);
   if (had_failed || !report.failed) return;
   // Who looks into the failure finds the increment with the particle.
   Particles& p = system_.bodies[body].particles;
-  for (std::size_t k = 0; k < 4; ++k)
-    p.strain_increment[k][place + *report.failed] = c.strain_increment[k][*report.failed];
-  p.spin_increment[place + *report.failed] = c.spin_increment[*report.failed];
-  *report.failed += place;
+  const std::size_t failed = *report.failed, place = chunk.place(failed);
+  for (std::size_t k = 0; k < 4; ++k) p.strain_increment[k][place] = increments.strain[k][failed];
+  p.spin_increment[place] = increments.spin[failed];
+  report.failed = place;
 }
 
 void StressUpdate::book() {

@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "mpm/axis.hpp"
 #include "mpm/gather_plan.hpp"
 #include "mpm/nodes.hpp"
@@ -7,12 +9,6 @@
 
 namespace vitrum::mpm {
 namespace {
-
-/// What the particles of a tile contribute to the record of the step.
-struct TileSums {
-  double kinetic = 0.0;
-  bool stale = false;
-};
 
 /// Largest absolute value.
 double largest_size(const double* values, std::size_t size) {
@@ -173,11 +169,12 @@ void store_gradient(const Chunk& chunk, const ParticleRates& to, const Interpola
     store_turned_rates<axisymmetric, false>(chunk.size(), at, turn, radius.data(), cell, strain, spin.data());
 }
 
+/// Returns the kinetic energy of the tile's particles, for plans that change velocities.
 /// P: a plan. targets: by body, for the plans that have a target; otherwise null. stress: null where it is
 /// not updated.
 template <ShapeKind kind, bool axisymmetric, class P, class Target>
-TileSums gather_tile(System& system, std::size_t tile, double duration,
-                     [[maybe_unused]] const Target* targets, [[maybe_unused]] StressUpdate* stress) {
+double gather_tile(System& system, std::size_t tile, double duration, [[maybe_unused]] const Target* targets,
+                   [[maybe_unused]] StressUpdate* stress) {
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const bool at_axis = axisymmetric && kind != ShapeKind::linear && block.column == 0;
@@ -185,7 +182,7 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
   Pack<2>* momenta = grid.tile_data(tile).template packs<2>();
   if constexpr (P::rescatter) std::fill(momenta, momenta + tile_nodes, Pack<2>{});
 
-  TileSums sums;
+  double kinetic = 0.0;
   const double cell = grid.cell(), per_cell = 1.0 / cell;
   [[maybe_unused]] const CellRange cells(block, per_cell);
   Interpolated<P> at;
@@ -209,15 +206,15 @@ TileSums gather_tile(System& system, std::size_t tile, double duration,
         else
           store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
       }
-      if constexpr (P::velocity) sums.kinetic += store_velocity(chunk, p, at);
+      if constexpr (P::velocity) kinetic += store_velocity(chunk, p, at);
       if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);
       if constexpr (P::position)
-        sums.stale |= store_position<axisymmetric>(chunk, p, at, r, z, cells, duration);
+        if (store_position<axisymmetric>(chunk, p, at, r, z, cells, duration)) grid.note_left(tile);
     });
   }
   if constexpr (P::rescatter && axisymmetric && kind != ShapeKind::linear)
     if (block.column == 0) fold_axis(momenta, axis_parity<2>);
-  return sums;
+  return kinetic;
 }
 
 /// Adds up what the tiles hold for the momenta of a block's nodes.
@@ -234,20 +231,17 @@ void sum_momenta(Grid& grid, std::size_t index) {
 template <class P, class Target>
 void gather_all(System& system, double duration, const Target* targets, StressUpdate* stress) {
   Grid& grid = system.grid;
-  static thread_local std::vector<TileSums> of_tile;  // of the calling thread; workers write to its elements
-  std::vector<TileSums>& sums = of_tile;
-  sums.resize(grid.tiles().size());
+  static thread_local std::vector<double> of_tile;  // of the calling thread; workers write to its elements
+  std::vector<double>& kinetic = of_tile;
+  kinetic.resize(grid.tiles().size());
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      sums[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets, stress);
+      kinetic[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets, stress);
     });
   });
   if constexpr (P::velocity) {
-    system.record.kinetic = 0.0;
-    for (const TileSums& s : sums) system.record.kinetic += s.kinetic;
+    system.record.kinetic = std::accumulate(kinetic.begin(), kinetic.end(), 0.0);
   }
-  if constexpr (P::position)
-    for (const TileSums& s : sums) system.grid_is_stale |= s.stale;
   if constexpr (P::rescatter)
     system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
       sum_momenta(grid, block);

@@ -72,6 +72,7 @@ class NodePacks {
 template <class P>
 class Interpolated {
  public:
+  Interpolated() {}  // filled, not cleared
   template <class Stencils>
   void gather(const Stencils& at, std::size_t size, const NodePacks<P>& nodes) {
     for (std::size_t k = 0; k < size; ++k) {

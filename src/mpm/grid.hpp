@@ -7,6 +7,7 @@
 #include "mpm/pack.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/shape.hpp"
+#include "mpm/thread_team.hpp"
 
 namespace vitrum::mpm {
 
@@ -104,8 +105,19 @@ class Grid {
   /// particles are stored. Throws ComputationError for positions that are not finite or too far away (2^31
   /// cells).
   void rebuild(const std::vector<Body>& bodies);
+  /// The same lists as rebuild, for the cost of the particles that have left: only the tiles noted are looked
+  /// through. Throws as rebuild; the lists are void then.
+  void relist(const std::vector<Body>& bodies);
+  /// Notes that some particle of a tile may have left the cells that the tile was made for. (Each tile by one
+  /// thread.)
+  void note_left(std::size_t tile) { left_[tile] = 1; }
+  bool some_left() const;
+
   /// Moves the particles of all bodies in memory so that those of a block lie one behind the other.
-  void sort_storage(std::vector<Body>& bodies);
+  void sort_storage(std::vector<Body>& bodies, ThreadTeam& team);
+  /// Particles in chunks that lie otherwise, and all particles.
+  std::size_t scattered() const { return scattered_; }
+  std::size_t listed() const { return index_.size(); }
 
   /// Whether some particle of a tile is no longer in the cells that the tile was made for.
   bool has_left(std::size_t tile, const std::vector<Body>& bodies) const;
@@ -113,11 +125,10 @@ class Grid {
   /// Particles of `body` in the block with tile `t`, by rising identity.
   struct Range {
     const std::uint32_t *begin, *end;
-    bool contiguous;  ///< whether they lie one behind the other in their columns
   };
   Range particles(std::size_t tile, std::size_t body) const {
     const std::size_t k = tile * body_count_ + body;
-    return {index_.data() + offset_[k], index_.data() + offset_[k + 1], contiguous_[k] != 0};
+    return {index_.data() + offset_[k], index_.data() + offset_[k + 1]};
   }
 
   const std::vector<Block>& blocks() const { return blocks_; }
@@ -135,11 +146,31 @@ class Grid {
   ShapeKind shape() const { return shape_; }
 
  private:
-  void sort_particles(const std::vector<Body>& bodies);
+  /// A particle that has left its block.
+  struct Mover {
+    std::size_t from, to;  ///< lists: tile * body_count_ + body
+    std::uint32_t particle, identity;
+    std::int64_t i, j;  ///< its cell
+  };
+  /// The lists as they were.
+  struct Lists {
+    std::vector<std::uint32_t> offset, index;
+  };
+  void find_blocks(const std::vector<Body>& bodies);
+  void fill_lists(const std::vector<Body>& bodies);
   std::size_t append(const Particles& p, std::size_t body, std::size_t home,
                      std::vector<std::uint32_t>& next);
+  void set_blocks(std::vector<Block>&& with_particles);
   void add_neighbours();
+  std::array<int, 4> reach(const Block& block) const;
   void mark_constraints();
+  void count_scattered();
+
+  void find_movers(const std::vector<Body>& bodies);
+  std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
+  bool blocks_serve();
+  std::vector<Block> blocks_after_moves() const;
+  void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies);
 
   double cell_ = 1.0;
   ShapeKind shape_ = ShapeKind::linear;
@@ -150,9 +181,12 @@ class Grid {
   std::vector<Block> blocks_;
   std::vector<std::int32_t> tile_block_;       // tile -> block
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
-  std::vector<char> contiguous_;               // by (tile, body)
-  std::vector<std::int32_t> home_;             // scratch: block of each particle
-  std::vector<std::uint32_t> place_;           // scratch: place of each identity
+  std::vector<char> left_;                     // by tile
+  std::size_t scattered_ = 0;
+  std::vector<std::int32_t> home_;    // scratch: block of each particle
+  std::vector<std::uint32_t> place_;  // scratch: place of each identity
+  std::vector<Mover> movers_;         // scratch
+  Lists old_;                         // scratch
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;

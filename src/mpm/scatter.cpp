@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "mpm/nodes.hpp"
 #include "mpm/stencil.hpp"
 #include "mpm/transfer.hpp"
@@ -157,23 +159,28 @@ void scatter_all(System& system, Nodes until, double duration) {
 }  // namespace
 
 void refresh_grid(System& system, Storage storage) {
-  if (!system.grid_is_stale) return;
-  system.grid.rebuild(system.bodies);
-  if (storage == Storage::sorted) system.grid.sort_storage(system.bodies);
+  Grid& grid = system.grid;
+  const bool anew = std::exchange(system.grid_is_stale, true);  // should the lists throw
+  if (anew)
+    grid.rebuild(system.bodies);
+  else if (grid.some_left())
+    grid.relist(system.bodies);
   system.grid_is_stale = false;
+  if (storage == Storage::kept) return;
+  // Sorting costs about what scattered particles cost in a step, if all were.
+  system.scattered_since_sorted += grid.scattered();
+  if (grid.scattered() != 0 && (anew || system.scattered_since_sorted >= grid.listed())) {
+    grid.sort_storage(system.bodies, *system.team);
+    system.scattered_since_sorted = 0;
+  }
 }
 
 void refresh_grid_for_positions(System& system) {
-  if (!system.grid_is_stale) {
-    Grid& grid = system.grid;
-    static thread_local std::vector<char> of_tile;  // of the calling thread; workers write to its elements
-    std::vector<char>& left = of_tile;
-    left.assign(grid.tiles().size(), 0);
+  Grid& grid = system.grid;
+  if (!system.grid_is_stale)
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      left[tile] = grid.has_left(tile, system.bodies) ? 1 : 0;
+      if (grid.has_left(tile, system.bodies)) grid.note_left(tile);
     });
-    for (const char l : left) system.grid_is_stale |= l != 0;
-  }
   refresh_grid(system);
 }
 

@@ -8,6 +8,7 @@ namespace vitrum::mpm {
 
 /// Strain and spin increments of a chunk (as in Particles).
 struct ChunkIncrements {
+  ChunkIncrements() {}  // filled, not cleared
   double strain[4][Chunk::capacity], spin[Chunk::capacity];
 };
 
@@ -23,9 +24,6 @@ class StressUpdate {
   void book();
 
  private:
-  void take_run(BatchReport& report, std::size_t body, std::size_t place, std::size_t size,
-                const ChunkIncrements& increments, std::size_t first);
-
   System& system_;
   double duration_;
   std::vector<ParticleColumns> columns_;  // by body

@@ -41,9 +41,10 @@ struct System {
   std::int64_t step_index = 0;
   StepRecord record;
   std::int64_t constitutive_evaluations = 0, constitutive_events = 0;
-  SolverCounters constitutive_solver;  ///< work of the local ODE solvers so far
-  bool coasting_settled = false;       ///< it has been decided which bodies start coasting
-  bool grid_is_stale = true;           ///< a particle has left the cells its block was made for
+  SolverCounters constitutive_solver;      ///< work of the local ODE solvers so far
+  bool coasting_settled = false;           ///< it has been decided which bodies start coasting
+  bool grid_is_stale = true;               ///< the grid's lists of particles are void
+  std::size_t scattered_since_sorted = 0;  ///< particles out of order in memory, summed over steps
 
   std::size_t particle_count() const {
     std::size_t n = 0;

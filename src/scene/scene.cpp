@@ -7,7 +7,7 @@
 namespace vitrum {
 
 std::string Scene::at(const std::string& key) const {
-  const std::string fact = fmt::format("key '{}'", key);
+  std::string fact = fmt::format("key '{}'", key);
   for (std::string path = key; !path.empty();) {
     if (const auto place = places.find(path); place != places.end())
       return fmt::format("{}: {}", place->second, fact);

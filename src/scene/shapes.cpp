@@ -72,7 +72,7 @@ std::optional<Vector2> common_point(const Shape& a, const Shape& b, double resol
   const Box of_a = bounds(a), of_b = bounds(b);
   constexpr double most_points = 1000.0;  // along each side
   Vector2 first, step;
-  std::array<int, 2> count;
+  std::array<int, 2> count{};
   for (std::size_t k = 0; k < 2; ++k) {
     // Twice the tolerance: the corners of a box that both share must count as well inside.
     first[k] = std::max(of_a.min[k], of_b.min[k]) + 2.0 * tolerance;

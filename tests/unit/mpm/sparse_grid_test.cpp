@@ -1,7 +1,10 @@
 #include <cmath>
+#include <numeric>
 
 #include "catch.hpp"
+#include "mpm/transfer.hpp"
 #include "support/mpm_run.hpp"
+#include "support/random_states.hpp"
 
 using namespace vitrum;
 using namespace vitrum::mpm;
@@ -122,5 +125,67 @@ TEST_CASE(
       CHECK(one.energy().residual() == other->energy().residual());
       CHECK(one.system.record.elastic == other->system.record.elastic);
     }
+  }
+}
+
+TEST_CASE("Lists amended for the particles that left are those of a rebuild", "[mpm][grid]") {
+  Random random(20261125);
+  for (const char* shape : shapes) {
+    CAPTURE(shape);
+    MpmScene scene;
+    scene.geometry = "axisymmetric", scene.cell = 1.0, scene.shape = shape;
+    scene.tables = body("left", box({0.0, 0.0}, {12.0, 20.0}), "particles_per_cell = 4") +
+                   body("right", box({12.0, 0.0}, {21.0, 20.0}), "particles_per_cell = 1");
+    MpmRun run(scene);
+    mpm::Grid& grid = run.system.grid;
+    mpm::refresh_grid(run.system);
+    mpm::Grid anew = grid;
+    double mass = 0.0;
+    for (std::size_t n = 0; n < 2; ++n)
+      mass += std::accumulate(run.particles(n).mass.begin(), run.particles(n).mass.end(), 0.0);
+    std::size_t changed_blocks = 0;
+    for (int round = 0; round < 60; ++round) {
+      CAPTURE(round);
+      // A few particles far, or all of them a little, or a part of them together: into blocks that exist and
+      // into others, out of blocks that are empty then.
+      const double far = round % 3 == 0 ? 30.0 : 0.8, share = round % 3 == 0 ? 0.02 : 1.0,
+                   drift = round % 3 == 2 ? 3.0 : 0.0;
+      for (std::size_t n = 0; n < 2; ++n)
+        for (std::size_t i = 0; i < run.particles(n).size; ++i) {
+          if (!random.chance(share)) continue;
+          auto& x = run.particles(n).position;
+          x[0][i] = std::abs(x[0][i] + random.uniform(-far, far));
+          x[1][i] += random.uniform(-far, far) + (n == 0 ? drift : -drift);
+        }
+      for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile)
+        if (grid.has_left(tile, run.system.bodies)) grid.note_left(tile);
+      const std::size_t blocks = grid.blocks().size();
+      grid.relist(run.system.bodies);
+      anew.rebuild(run.system.bodies);
+      changed_blocks += grid.blocks().size() != blocks ? 1 : 0;
+      CHECK_FALSE(grid.some_left());
+      REQUIRE(grid.tiles() == anew.tiles());
+      for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile) {
+        const mpm::Block &a = grid.blocks()[tile], &b = anew.blocks()[tile];
+        REQUIRE((a.column == b.column && a.row == b.row && a.constrained == b.constrained));
+        REQUIRE_FALSE(grid.has_left(tile, run.system.bodies));
+        for (std::size_t n = 0; n < 2; ++n) {
+          const auto mine = grid.particles(tile, n), theirs = anew.particles(tile, n);
+          REQUIRE(std::equal(mine.begin, mine.end, theirs.begin, theirs.end));
+        }
+      }
+      // All nodes that particles touch are there.
+      mpm::scatter(run.system, Scatter::momentum);
+      const double* nodal = grid.field(Field::mass);
+      CHECK(std::accumulate(nodal, nodal + grid.blocks().size() * block_nodes, 0.0) ==
+            Approx(mass).epsilon(1e-12));
+      if (round % 10 == 0) grid.sort_storage(run.system.bodies, *run.system.team);
+      if (round % 10 == 0) {
+        REQUIRE(grid.scattered() == 0);
+        anew.rebuild(run.system.bodies);
+        REQUIRE(anew.scattered() == 0);
+      }
+    }
+    CHECK(changed_blocks > 10);
   }
 }

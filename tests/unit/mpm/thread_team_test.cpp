@@ -1,8 +1,11 @@
 #include "mpm/thread_team.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <new>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "mpm/computation_error.hpp"
 #include "tests/catch.hpp"
@@ -26,4 +29,26 @@ TEST_CASE("An exception on any thread reaches the caller, and the team goes on w
     CHECK_THROWS_AS(team.for_each_chunk(64, [](std::size_t) { throw std::runtime_error("all"); }),
                     std::runtime_error);
   }
+}
+
+TEST_CASE("Every chunk is done once, whoever is slow", "[threads]") {
+  for (const int threads : {1, 2, 3}) {
+    ThreadTeam team(threads);
+    for (const std::size_t chunks : {0U, 1U, 2U, 5U, 100U}) {
+      std::vector<std::atomic<int>> done(chunks);
+      team.for_each_chunk(chunks, [&](std::size_t chunk) {
+        if (chunk == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ++done[chunk];
+      });
+      for (const auto& times : done) CHECK(times == 1);
+    }
+  }
+}
+
+TEST_CASE("The calling thread may use the same processors after a team's life as before", "[threads]") {
+  cpu_set_t before, after;
+  REQUIRE(pthread_getaffinity_np(pthread_self(), sizeof before, &before) == 0);
+  { const ThreadTeam team(CPU_COUNT(&before)); }
+  REQUIRE(pthread_getaffinity_np(pthread_self(), sizeof after, &after) == 0);
+  CHECK(CPU_EQUAL(&before, &after));
 }

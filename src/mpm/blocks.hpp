@@ -1,0 +1,48 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "mpm/grid.hpp"
+
+/// Which block a cell belongs to, and which cells a block's particles are in.
+namespace vitrum::mpm {
+
+inline std::uint64_t key_of(std::int32_t column, std::int32_t row) {
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
+         static_cast<std::uint32_t>(column);
+}
+
+/// floor(cell / block_side)
+inline std::int32_t block_of(std::int64_t cell) {
+  return static_cast<std::int32_t>(cell >> 3);
+}
+
+inline bool before(const Block& a, const Block& b) {
+  return a.row != b.row ? a.row < b.row : a.column < b.column;
+}
+
+inline bool holds(const Block& b, std::int64_t i, std::int64_t j) {
+  return b.column == block_of(i) && b.row == block_of(j);
+}
+
+/// The block with cell (i, j), for particles in that cell and beside it.
+inline Block block_at(std::int64_t i, std::int64_t j) {
+  Block b;
+  b.column = block_of(i), b.row = block_of(j);
+  b.cells = {i, i, j, j};
+  return b;
+}
+
+/// Extends the range of cells of a block to cell (i, j) of it and its neighbours in the block: particles may
+/// move by up to a cell before their lists must be looked through.
+inline void widen(Block& b, std::int64_t i, std::int64_t j) {
+  const std::int64_t i0 = std::int64_t{b.column} * block_side, j0 = std::int64_t{b.row} * block_side;
+  b.cells = {
+      std::min(b.cells[0], std::max(i - 1, i0)), std::max(b.cells[1], std::min(i + 1, i0 + block_side - 1)),
+      std::min(b.cells[2], std::max(j - 1, j0)), std::max(b.cells[3], std::min(j + 1, j0 + block_side - 1))};
+}
+
+/// The cell of a coordinate (in cells). Throws ComputationError for what is not finite or too far away.
+std::int64_t checked_cell(double x, const Body& body, std::size_t particle);
+
+}  // namespace vitrum::mpm
