@@ -11,11 +11,17 @@ import time
 import unittest
 
 import mounts
-from support import CommandLineTest, impact, overrides, read_summary
+from support import CommandLineTest, impact, overrides, program, read_summary
 
 settings = [*overrides(time__end=4e-6, output__every=5e-7, output__checkpoint_every=1e-6), "--threads", "1"]
 no_space = "No space left on device"
 tools = "/usr/sbin:/sbin:/usr/bin:/bin"
+
+
+def starts_without_files():
+    """The thread sanitizer writes one before main()."""
+    return subprocess.run([program, "--version"], preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)),
+                          stdout=subprocess.DEVNULL).returncode == 0
 
 
 class FullDisk(CommandLineTest):
@@ -97,6 +103,8 @@ class FullDisk(CommandLineTest):
         for part in (0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6):
             out, limit = self.folder / f"out {part}", int(part * self.size)
             with self.subTest(limit=limit):
+                if limit == 0 and not starts_without_files():
+                    continue
                 message, _ = self.run_until_full(
                     out, "File too large", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
                 self.assertIsNotNone(message)

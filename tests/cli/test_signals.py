@@ -80,10 +80,12 @@ class Signals(CommandLineTest):
     def test_at_the_start(self):
         """Before the run catches signals it ends at once, afterwards with a checkpoint; either leaves order."""
         statuses = set()
-        for n in range(24):
+        for n in range(40):
+            if n >= 24 and 130 in statuses:  # later moments are for programs that a sanitizer slows down
+                break
             out = self.folder / f"out{n}"
             process = self.start("run", impact, "--out", out, "--quiet", *long)
-            time.sleep(0.002 * n)
+            time.sleep(0.002 * n if n < 24 else 0.05 * (n - 22))
             process.send_signal(signal.SIGINT)
             statuses.add(process.wait())
             self.assert_completed_outputs(out, self.whole)
