@@ -124,6 +124,13 @@ def exponent(x, y):
     return sum((a - mx) * (b - my) for a, b in zip(lx, ly)) / sum((a - mx) ** 2 for a in lx)
 
 
+def memory_exponent(timings):
+    """Of what scenes take beyond the program itself: those that show among its own megabytes."""
+    program_itself = min(t.memory for t in timings)
+    large = [t for t in timings if t.memory > program_itself + 2e6]
+    return f"{exponent([t.particles for t in large], [t.memory - program_itself for t in large]):.2f}" if len(large) > 1 else "-"
+
+
 def growth(program, repetitions, quick):
     cells = [0.625e-3, 0.3125e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.0390625e-3, 0.01953125e-3]
     steps = {cell: max(20, min(4000, int(4e6 * (cell / 0.625e-3) ** 2 / 1280))) if not quick else 20 for cell in cells}
@@ -131,7 +138,7 @@ def growth(program, repetitions, quick):
     rows = [(t.particles, f"{t.rate:.1f}", percent(t.spread), f"{1e6 * t.median / t.steps:.0f}", f"{t.memory / 1e6:.0f}") for t in sizes.values()]
     particles = [t.particles for t in sizes.values()]
     lines = [("particles, time a step", f"{exponent(particles, [t.median / t.steps for t in sizes.values()]):.2f}"),
-             ("particles, memory beyond the smallest", f"{exponent(particles[1:], [t.memory - list(sizes.values())[0].memory for t in list(sizes.values())[1:]]):.2f}" if len(particles) > 2 else "-")]
+             ("particles, memory beyond the smallest", memory_exponent(list(sizes.values())))]
     cell = 0.625e-3 if quick else 0.15625e-3
     counted = [20, 40] if quick else [100, 200, 400, 800]
     by_steps = runs.measure(program, [runs.Case(f"{n}", runs.bar, runs.bar_settings(cell, n)) for n in counted], repetitions)
