@@ -109,7 +109,7 @@ int available_threads() {
 }
 
 int threads_for(std::size_t particles, int available) {
-  constexpr std::size_t worth_a_thread = 10000;
+  constexpr std::size_t worth_a_thread = 4000;
   const auto useful = static_cast<int>(std::min<std::size_t>(particles / worth_a_thread + 1, 1024));
   return std::max(1, std::min(useful, available));
 }

@@ -4,7 +4,7 @@
     studies/performance/measure.py BUILD [--out DIR] [--repetitions N] [--quick]
 
 BUILD is a build tree with the target vitrum_benchmarks (cmake --preset native && cmake --build --preset native). Leaves measurements.md
-(tables), benchmarks.json (Google Benchmark's own) and roofline.png in DIR (default: docs). --quick: small scenes once, to see that the
+(tables), benchmarks.json (Google Benchmark's context and every repetition's time) and roofline.png in DIR (default: docs). --quick: small scenes once, to see that the
 script runs. Run it on a quiet machine: it times.
 """
 import argparse
@@ -32,7 +32,8 @@ def run_benchmarks(build, out, repetitions, quick):
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(done.stderr)
-    entries = json.loads(results.read_text())["benchmarks"]
+    report = json.loads(results.read_text())
+    entries = report["benchmarks"]
     failed = [e for e in entries if e.get("error_occurred")]
     if failed:
         sys.exit(f"{failed[0]['name']}: {failed[0]['error_message']}")
@@ -40,7 +41,11 @@ def run_benchmarks(build, out, repetitions, quick):
     for entry in entries:
         if entry["run_type"] == "iteration":
             by_name.setdefault(entry["run_name"], []).append(entry)
-    return dict(sorted(by_name.items(), key=lambda item: [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", item[0])]))
+    by_name = dict(sorted(by_name.items(), key=lambda item: [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", item[0])]))
+    compact = {name: {"unit": runs[0]["time_unit"], "label": runs[0].get("label", ""), "times": [run["real_time"] for run in runs]}
+               for name, runs in by_name.items()}
+    results.write_text(json.dumps({"context": report["context"], "benchmarks": compact}, indent=1) + "\n")
+    return by_name
 
 
 def main():
