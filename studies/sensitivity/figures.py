@@ -33,7 +33,9 @@ def question(title, ensembles, members, found, base, folder, name):
         axes.set_xlim(-0.6, len(ensembles) - 0.4)
         axes.grid(False, axis="x")
         axes.set_xticks(range(len(ensembles)))
-        axes.set_xticklabels([ensemble.label for ensemble in ensembles], fontsize=7.5)
+        labels = [ensemble.label for ensemble in ensembles]
+        crowded = sum(map(len, labels)) > 30
+        axes.set_xticklabels(labels, fontsize=7.5, rotation=20 if crowded else 0, ha="right" if crowded else "center")
         axes.ticklabel_format(axis="y", useOffset=False)
     figure.suptitle(title[0].upper() + title[1:], fontsize=10)
     legend_below(figure, [Line2D([], [], color="black", linestyle="", marker=".", label="member"), Patch(color=colours[5], alpha=0.45, label="5–95 % of members"),
