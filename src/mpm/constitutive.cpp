@@ -104,6 +104,8 @@ void advance(ParticleColumns& c, std::size_t place) {
 /// Columns of a chunk whose particles lie apart, brought together for an increment that is committed.
 class Collected {
  public:
+  Collected() {}  // filled, not cleared
+
   ParticleColumns from(const ParticleColumns& columns, const Chunk& chunk) {
     ParticleColumns c = columns;
     double(*free)[Chunk::capacity] = values_;
