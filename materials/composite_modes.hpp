@@ -7,6 +7,9 @@ template <bool D, Yielding Y, bool C>
 EvolutionMode Composite<D, Y, C>::enter(PointState& s, const StrainPath& path, PointReport& report) const {
   using Plane = EvolutionMode::Plane;
   EvolutionMode mode;
+  // Traction that the error of earlier increments left on open faces would push them open and shut for ever.
+  if constexpr (C)
+    if (is_separated(s)) relax_crack(s);
   const double start = trace(s.elastic_strain);
   mode.tension = start > 0.0 || (start == 0.0 && trace(path.strain) > 0.0);
   if constexpr (C)

@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "integrators/local/cvode.hpp"
 #include "integrators/local/substep.hpp"
+#include "support/cracked_state.hpp"
 #include "support/material_samples.hpp"
 #include "support/random_states.hpp"
 #include "support/strain_path.hpp"
@@ -297,6 +298,28 @@ TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solv
     CHECK(solves_of(separated, {-2e-2, 0, 0, 0}) == 0);
     CHECK(solves_of({}, {1.6e-3, 0, 0, 0}) > 0);
   }
+}
+
+TEST_CASE("open faces lose the traction that errors left on them before they may close", "[local][extreme]") {
+  // Where it stayed, faces that just met pulled each other open at once: more than 2,000 changes of mode.
+  MaterialParameters parameters = cohesive_glass(1.6e-9);
+  parameters.von_mises = VonMisesParameters{359e6, 484e6, 9.6e9, 9.6e9};
+  const auto material = make_material(parameters, cell);
+  const double stiffness = elastic_moduli(parameters.elastic).p_wave();
+  Random random(20261125);
+  for (const Solver& solver : solvers(1e-6))
+    for (int n = 0; n < 200; ++n) {
+      const double angle = random.uniform(0.0, 3.0), left_over = random.logarithmic(1e5, 1e7),
+                   gap = random.logarithmic(1e-9, 1e-7);
+      CAPTURE(solver.name, n, angle, left_over, gap);
+      PointState s = at_onset(*material, angle, 2.5e8, left_over * normal_dyad(angle));
+      s.plastic_strain = 0.015, s.decohesion = 1.0, s.opening_n = gap;
+      const SymmetricTensor closing = -1.001 * (gap / cell) * normal_dyad(angle);
+      const auto end = drive(*material, {{closing, 5e-8}}, 1, s, solver.integrator.get());
+      CHECK(end.cause.empty());
+      CHECK(end.state.opening_n == Approx(cell * left_over / stiffness - 1e-3 * gap).epsilon(1e-6));
+      CHECK(std::abs(normal_traction(end.state.stress, angle)) < 1.0);  // Pa
+    }
 }
 
 TEST_CASE("Drucker-Prager under proportional shear with growing pressure, for every tolerance",
