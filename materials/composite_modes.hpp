@@ -8,6 +8,7 @@ EvolutionMode Composite<D, Y, C>::enter(PointState& s, const StrainPath& path, P
   using Plane = EvolutionMode::Plane;
   EvolutionMode mode;
   // Traction that the error of earlier increments left on open faces would push them open and shut for ever.
+  // What it had stored is numerical error, and stays in the energy residual.
   if constexpr (C)
     if (is_separated(s)) relax_crack(s);
   const double start = trace(s.elastic_strain);

@@ -34,8 +34,8 @@ treatments = [
     Treatment("b", "(b) MUSL 0.025 µs", _explicit("musl", 2.5e-8)),
     Treatment("c-1e-2", "(c) ERK 3, rtol 1e-2", _adaptive(1e-2)),
     Treatment("c-1e-3", "(c) ERK 3, rtol 1e-3", _adaptive(1e-3)),
-    Treatment("d", "(d) MUSL 0.05 µs, CVODE", {**_explicit("musl", 5e-8), "constitutive.method": "cvode",
-                                              "constitutive.solver": "adams", "constitutive.rtol": 1e-6}),
+    Treatment("d", "(d) MUSL 0.025 µs, CVODE", {**_explicit("musl", 2.5e-8), "constitutive.method": "cvode",
+                                                "constitutive.solver": "adams", "constitutive.rtol": 1e-6}),
 ]
 by_key = {treatment.key: treatment for treatment in treatments}
 # Quick: the resolved run by a step twice as long, no local solver, two speeds, the smallest plate, the first 60 us.
