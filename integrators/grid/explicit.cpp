@@ -24,23 +24,30 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   system.record.external_work = 0.0;
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
+  mpm::StressUpdate stress(system, duration);
+  const auto scatter = [&](Scatter what, Nodes until) {
+    return mpm::scatter_pass(system, what, until, duration);
+  };
+  const auto gather = [&](Gather what, mpm::StressUpdate* update = nullptr) {
+    return mpm::gather_pass(system, what, duration, update);
+  };
   switch (scheme_) {
     case StepScheme::usf:
-      mpm::scatter(system, Scatter::momentum, Nodes::velocities);
-      mpm::gather_and_update_stress(system, Gather::strain, duration);
-      mpm::scatter(system, Scatter::force, Nodes::new_velocities, duration);
-      mpm::gather(system, Gather::velocity_and_position, duration);
+      mpm::sweep(system,
+                 {{scatter(Scatter::momentum, Nodes::velocities), gather(Gather::strain, &stress),
+                   scatter(Scatter::force, Nodes::new_velocities), gather(Gather::velocity_and_position)}});
       break;
     case StepScheme::usl:
-      mpm::scatter(system, Scatter::momentum_and_force, Nodes::new_velocities, duration);
-      mpm::gather_and_update_stress(system, Gather::all_from_new, duration);
+      mpm::sweep(system, {{scatter(Scatter::momentum_and_force, Nodes::new_velocities),
+                           gather(Gather::all_from_new, &stress)}});
       break;
     case StepScheme::musl:
-      mpm::scatter(system, Scatter::momentum_and_force, Nodes::new_velocities, duration);
-      mpm::gather(system, Gather::velocity_and_rescatter, duration);
-      mpm::gather_and_update_stress(system, Gather::strain_and_position, duration);
+      mpm::sweep(system,
+                 {{scatter(Scatter::momentum_and_force, Nodes::new_velocities),
+                   gather(Gather::velocity_and_rescatter), gather(Gather::strain_and_position, &stress)}});
       break;
   }
+  stress.book();
   mpm::coast(system, duration);
   ++system.step_index;
 }

@@ -17,9 +17,14 @@ inline std::int32_t block_of(std::int64_t cell) {
   return static_cast<std::int32_t>(cell >> 3);
 }
 
-inline bool before(const Block& a, const Block& b) {
-  return a.row != b.row ? a.row < b.row : a.column < b.column;
-}
+/// The order of blocks: by rows, or by columns.
+struct Before {
+  bool by_row;
+  bool operator()(const Block& a, const Block& b) const {
+    if (by_row) return a.row != b.row ? a.row < b.row : a.column < b.column;
+    return a.column != b.column ? a.column < b.column : a.row < b.row;
+  }
+};
 
 inline bool holds(const Block& b, std::int64_t i, std::int64_t j) {
   return b.column == block_of(i) && b.row == block_of(j);

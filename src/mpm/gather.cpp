@@ -228,65 +228,87 @@ void sum_momenta(Grid& grid, std::size_t index) {
   for (int node = 0; node < block_nodes; ++node) p0[node] = sum[node][0], p1[node] = sum[node][1];
 }
 
-template <class P, class Target>
-void gather_all(System& system, double duration, const Target* targets, StressUpdate* stress) {
-  Grid& grid = system.grid;
-  static thread_local std::vector<double> of_tile;  // of the calling thread; workers write to its elements
-  std::vector<double>& kinetic = of_tile;
-  kinetic.resize(grid.tiles().size());
-  dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
-    system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      kinetic[tile] = gather_tile<kind, axisymmetric, P>(system, tile, duration, targets, stress);
-    });
-  });
-  if constexpr (P::velocity) {
-    system.record.kinetic = std::accumulate(kinetic.begin(), kinetic.end(), 0.0);
-  }
-  if constexpr (P::rescatter)
-    system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
-      sum_momenta(grid, block);
-      project_block(grid, block);
-    });
+void book_kinetic_energy(const Pass& pass) {
+  const std::size_t tiles = pass.system->grid.tiles().size();
+  pass.system->record.kinetic =
+      std::accumulate(pass.parts->begin(), pass.parts->begin() + static_cast<std::ptrdiff_t>(tiles), 0.0);
 }
 
-void gather_plan(System& system, Gather what, double duration, StressUpdate* stress) {
-  const auto all = [&]<Gather w>() { gather_all<Plan<w>, void>(system, duration, nullptr, stress); };
-  switch (what) {
-    case Gather::strain:
-      return all.template operator()<Gather::strain>();
-    case Gather::velocity:
-      return all.template operator()<Gather::velocity>();
-    case Gather::position:
-      return all.template operator()<Gather::position>();
-    case Gather::velocity_and_position:
-      return all.template operator()<Gather::velocity_and_position>();
-    case Gather::all_from_new:
-      return all.template operator()<Gather::all_from_new>();
-    case Gather::velocity_and_rescatter:
-      return all.template operator()<Gather::velocity_and_rescatter>();
-    case Gather::strain_and_position:
-      return all.template operator()<Gather::strain_and_position>();
+template <class P, class Target>
+Pass pass_of(System& system, double duration) {
+  Pass pass;
+  pass.system = &system, pass.duration = duration;
+  dispatch(system.grid, [&]<ShapeKind kind, bool axisymmetric>() {
+    pass.tile = [](const Pass& own, std::size_t tile) {
+      const double kinetic = gather_tile<kind, axisymmetric, P>(
+          *own.system, tile, own.duration, static_cast<const Target*>(own.targets), own.stress);
+      if constexpr (P::velocity) (*own.parts)[tile] = kinetic;
+    };
+  });
+  if constexpr (P::velocity) {
+    static thread_local std::vector<double> kinetic_of_tile;  // of the calling thread; workers write to it
+    kinetic_of_tile.resize(system.grid.tiles().size());
+    pass.parts = &kinetic_of_tile;
+    pass.finish = book_kinetic_energy;
   }
+  if constexpr (P::rescatter)
+    pass.block = [](const Pass& own, std::size_t block) {
+      sum_momenta(own.system->grid, block);
+      project_block(own.system->grid, block);
+    };
+  return pass;
+}
+
+template <class P, class Target>
+void gather_to(System& system, std::span<const Target> targets) {
+  Pass pass = pass_of<P, Target>(system, 1.0);
+  pass.targets = targets.data();
+  sweep(system, {{pass}});
 }
 
 }  // namespace
 
+Pass gather_pass(System& system, Gather what, double duration, StressUpdate* stress) {
+  const auto pass = [&]<Gather w>() {
+    Pass made = pass_of<Plan<w>, void>(system, duration);
+    made.stress = stress;
+    return made;
+  };
+  switch (what) {
+    case Gather::strain:
+      return pass.template operator()<Gather::strain>();
+    case Gather::velocity:
+      return pass.template operator()<Gather::velocity>();
+    case Gather::position:
+      return pass.template operator()<Gather::position>();
+    case Gather::velocity_and_position:
+      return pass.template operator()<Gather::velocity_and_position>();
+    case Gather::all_from_new:
+      return pass.template operator()<Gather::all_from_new>();
+    case Gather::velocity_and_rescatter:
+      return pass.template operator()<Gather::velocity_and_rescatter>();
+    case Gather::strain_and_position:
+      return pass.template operator()<Gather::strain_and_position>();
+  }
+  return {};
+}
+
 void gather(System& system, Gather what, double duration) {
-  gather_plan(system, what, duration, nullptr);
+  sweep(system, {{gather_pass(system, what, duration)}});
 }
 
 void gather_and_update_stress(System& system, Gather what, double duration) {
   StressUpdate stress(system, duration);
-  gather_plan(system, what, duration, &stress);
+  sweep(system, {{gather_pass(system, what, duration, &stress)}});
   stress.book();
 }
 
 void gather_rates(System& system, std::span<const ParticleRates> rates) {
-  gather_all<RatesPlan>(system, 1.0, rates.data(), nullptr);
+  gather_to<RatesPlan>(system, rates);
 }
 
 void gather_gradient(System& system, std::span<const ParticleGradient> gradients) {
-  gather_all<GradientPlan>(system, 1.0, gradients.data(), nullptr);
+  gather_to<GradientPlan>(system, gradients);
 }
 
 double kinetic_energy(const System& system) {

@@ -49,7 +49,7 @@ void Grid::find_blocks(const std::vector<Body>& bodies) {
       widen(met[static_cast<std::size_t>(last)], i, j);
       home_[k] = last;
     }
-  // By rising row and column, so that sums over blocks do not depend on the order in which blocks were met.
+  // In geometric order, so that sums over blocks do not depend on the order in which blocks were met.
   std::vector<Block> sorted = met;
   set_blocks(std::move(sorted));
   std::vector<std::int32_t> rank(met.size());
@@ -70,16 +70,17 @@ void Grid::fill_lists(const std::vector<Body>& bodies) {
   k = 0;
   for (std::size_t body = 0; body < body_count_; ++body)
     if (!bodies[body].coasting) k = append(bodies[body].particles, body, k, next);
-  count_scattered();
+  scattered_ = 0;
+  for (std::size_t tile = 0; tile < tile_block_.size(); ++tile) scattered_ += scattered_in(tile);
 }
 
-void Grid::count_scattered() {
-  scattered_ = 0;
-  for (std::size_t tile = 0; tile < tile_block_.size(); ++tile)
-    for (std::size_t body = 0; body < body_count_; ++body)
-      for_chunks(*this, tile, body, [&](const Chunk& chunk) {
-        if (!chunk.contiguous()) scattered_ += chunk.size();
-      });
+std::size_t Grid::scattered_in(std::size_t tile) const {
+  std::size_t scattered = 0;
+  for (std::size_t body = 0; body < body_count_; ++body)
+    for_chunks(*this, tile, body, [&](const Chunk& chunk) {
+      if (!chunk.contiguous()) scattered += chunk.size();
+    });
+  return scattered;
 }
 
 /// Enters the particles of a body into their lists by rising identity. home: place of the body's first entry
@@ -104,7 +105,8 @@ std::size_t Grid::append(const Particles& p, std::size_t body, std::size_t home,
 /// Makes these the blocks that hold particles; adds those whose nodes their particles may touch.
 void Grid::set_blocks(std::vector<Block>&& with_particles) {
   blocks_ = std::move(with_particles);
-  std::sort(blocks_.begin(), blocks_.end(), before);
+  const bool by_row = are_tall(blocks_);
+  std::sort(blocks_.begin(), blocks_.end(), Before{by_row});
   find_.clear();
   tile_block_.resize(blocks_.size());
   std::iota(tile_block_.begin(), tile_block_.end(), 0);
@@ -114,7 +116,8 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
     find_[key_of(b.column, b.row)] = n;
   }
   left_.assign(tile_block_.size(), 0);
-  add_neighbours();
+  add_neighbours(by_row);
+  strips_.set(blocks_, tile_block_.size(), by_row);
   mark_constraints();
   for (std::vector<double>& field : fields_) field.resize(blocks_.size() * block_nodes);
   tile_data_.resize(tile_block_.size());
@@ -132,7 +135,7 @@ std::array<int, 4> Grid::reach(const Block& b) const {
 }
 
 /// Adds the blocks whose nodes particles of other blocks may touch, and links all blocks.
-void Grid::add_neighbours() {
+void Grid::add_neighbours(bool by_row) {
   const std::size_t with_particles = blocks_.size();
   for (std::size_t n = 0; n < with_particles; ++n) {
     const Block b = blocks_[n];
@@ -148,7 +151,7 @@ void Grid::add_neighbours() {
       }
   }
   // In geometric order too: what is summed over blocks must not depend on the particles that asked for them.
-  std::sort(blocks_.begin() + static_cast<std::ptrdiff_t>(with_particles), blocks_.end(), before);
+  std::sort(blocks_.begin() + static_cast<std::ptrdiff_t>(with_particles), blocks_.end(), Before{by_row});
   for (std::size_t n = with_particles; n < blocks_.size(); ++n)
     find_[key_of(blocks_[n].column, blocks_[n].row)] = static_cast<std::int32_t>(n);
   for (Block& b : blocks_)

@@ -7,6 +7,7 @@
 #include "mpm/pack.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/shape.hpp"
+#include "mpm/strips.hpp"
 #include "mpm/thread_team.hpp"
 
 namespace vitrum::mpm {
@@ -107,7 +108,7 @@ class Grid {
   void rebuild(const std::vector<Body>& bodies);
   /// The same lists as rebuild, for the cost of the particles that have left: only the tiles noted are looked
   /// through. Throws as rebuild; the lists are void then.
-  void relist(const std::vector<Body>& bodies);
+  void relist(const std::vector<Body>& bodies, ThreadTeam& team);
   /// Notes that some particle of a tile may have left the cells that the tile was made for. (Each tile by one
   /// thread.)
   void note_left(std::size_t tile) { left_[tile] = 1; }
@@ -133,6 +134,7 @@ class Grid {
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const std::vector<std::int32_t>& tiles() const { return tile_block_; }
+  const Strips& strips() const { return strips_; }
   double* field(Field f) { return fields_[static_cast<std::size_t>(f)].data(); }
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
   TileData& tile_data(std::size_t tile) { return tile_data_[tile]; }
@@ -155,22 +157,26 @@ class Grid {
   /// The lists as they were.
   struct Lists {
     std::vector<std::uint32_t> offset, index;
+    std::vector<std::ptrdiff_t> list;  ///< by list that is now: the one it comes of; -1: none
   };
   void find_blocks(const std::vector<Body>& bodies);
   void fill_lists(const std::vector<Body>& bodies);
   std::size_t append(const Particles& p, std::size_t body, std::size_t home,
                      std::vector<std::uint32_t>& next);
   void set_blocks(std::vector<Block>&& with_particles);
-  void add_neighbours();
+  void add_neighbours(bool by_row);
   std::array<int, 4> reach(const Block& block) const;
   void mark_constraints();
-  void count_scattered();
+  std::size_t scattered_in(std::size_t tile) const;
 
-  void find_movers(const std::vector<Body>& bodies);
+  void find_movers(const std::vector<Body>& bodies, ThreadTeam& team);
+  void find_movers_of(std::size_t tile, const std::vector<Body>& bodies);
   std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
   bool blocks_serve();
   std::vector<Block> blocks_after_moves() const;
-  void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies);
+  void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
+                          ThreadTeam& team);
+  void merge_list(std::size_t list, const Particles& p);
 
   double cell_ = 1.0;
   ShapeKind shape_ = ShapeKind::linear;
@@ -179,14 +185,18 @@ class Grid {
 
   std::size_t body_count_ = 0;
   std::vector<Block> blocks_;
-  std::vector<std::int32_t> tile_block_;       // tile -> block
+  std::vector<std::int32_t> tile_block_;  // tile -> block
+  Strips strips_;
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
   std::vector<char> left_;                     // by tile
   std::size_t scattered_ = 0;
-  std::vector<std::int32_t> home_;    // scratch: block of each particle
-  std::vector<std::uint32_t> place_;  // scratch: place of each identity
-  std::vector<Mover> movers_;         // scratch
-  Lists old_;                         // scratch
+  std::vector<std::int32_t> home_;                  // scratch: block of each particle
+  std::vector<std::uint32_t> place_;                // scratch: place of each identity
+  std::vector<Mover> movers_;                       // scratch: by the list left and the place there
+  std::vector<Mover> comers_;                       // scratch: by the list entered and identity
+  std::vector<std::vector<Mover>> movers_of_tile_;  // scratch
+  std::vector<std::size_t> scattered_of_tile_;      // scratch
+  Lists old_;                                       // scratch
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;

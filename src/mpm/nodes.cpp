@@ -22,28 +22,6 @@ void impose(Grid& grid, std::size_t block, Field component_0) {
   }
 }
 
-/// Work (J per radian or metre, over a second) of gravity on every node and of the reaction -(f + m g) that
-/// keeps a node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity) nodes
-/// and the axis do no work. In the order of the blocks.
-double external_power(const System& system, Field from, Field to) {
-  const Grid& grid = system.grid;
-  if (!has_external_work(system)) return 0.0;
-  const double* mass = grid.field(Field::mass);
-  double power = 0.0;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const auto component = [&](Field f) {
-      return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c));
-    };
-    const double *force = component(Field::force_0), *v = component(from), *w = component(to);
-    for (std::size_t n = 0; n < grid.blocks().size() * block_nodes; ++n) {
-      const double mean = 0.5 * (v[n] + w[n]), weight = mass[n] * system.gravity[c];
-      power += weight * mean;
-      if (grid.constraint(c, n) >= 0) power -= (force[n] + weight) * mean;
-    }
-  }
-  return power;
-}
-
 /// Mass below which a node counts as empty (what reaches it has underflowed).
 constexpr double empty = std::numeric_limits<double>::min();
 
@@ -85,9 +63,35 @@ void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>
   if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
 }
 
-void book_external_work(System& system, double duration) {
-  system.record.external_work += duration * external_power(system, Field::velocity_0, Field::new_velocity_0);
+double external_power(const System& system, std::size_t block, Field from, Field to) {
+  const Grid& grid = system.grid;
+  const double* mass = grid.field(Field::mass);
+  double power = 0.0;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto component = [&](Field f) {
+      return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c));
+    };
+    const double *force = component(Field::force_0), *v = component(from), *w = component(to);
+    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+      const double mean = 0.5 * (v[n] + w[n]), weight = mass[n] * system.gravity[c];
+      power += weight * mean;
+      if (grid.constraint(c, n) >= 0) power -= (force[n] + weight) * mean;
+    }
+  }
+  return power;
 }
+
+namespace {
+
+double external_power_of_all(const System& system, Field from, Field to) {
+  double power = 0.0;
+  if (has_external_work(system))
+    for (std::size_t block = 0; block < system.grid.blocks().size(); ++block)
+      power += external_power(system, block, from, to);
+  return power;
+}
+
+}  // namespace
 
 void project_velocities(System& system) {
   system.team->for_each_chunk(system.grid.blocks().size(),
@@ -98,7 +102,8 @@ void apply_forces(System& system, double duration) {
   system.team->for_each_chunk(system.grid.blocks().size(), [&](std::size_t block) {
     accelerate_block(system.grid, block, system.gravity, duration);
   });
-  book_external_work(system, duration);
+  system.record.external_work +=
+      duration * external_power_of_all(system, Field::velocity_0, Field::new_velocity_0);
 }
 
 double accelerate(System& system) {
@@ -114,7 +119,7 @@ double accelerate(System& system) {
                    : 0.0;
     });
   }
-  return external_power(system, Field::velocity_0, Field::velocity_0);
+  return external_power_of_all(system, Field::velocity_0, Field::velocity_0);
 }
 
 }  // namespace vitrum::mpm

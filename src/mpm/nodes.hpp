@@ -9,8 +9,9 @@ namespace vitrum::mpm {
 
 void project_block(Grid& grid, std::size_t block);
 void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>& gravity, double duration);
-/// Enters the work of gravity and of prescribed velocities in the record of the step, once all blocks are
-/// done.
-void book_external_work(System& system, double duration);
+/// Work (J per radian or metre, over a second) of gravity on a block's nodes and of the reaction -(f + m g)
+/// that keeps a node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity)
+/// nodes and the axis do no work.
+double external_power(const System& system, std::size_t block, Field from, Field to);
 
 }  // namespace vitrum::mpm

@@ -23,8 +23,8 @@ bool Grid::some_left() const {
   return std::any_of(left_.begin(), left_.end(), [](char left) { return left != 0; });
 }
 
-void Grid::relist(const std::vector<Body>& bodies) {
-  find_movers(bodies);
+void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
+  find_movers(bodies, team);
   std::vector<std::int32_t> rank(tile_block_.size());  // old tile -> new tile; -1: holds no particle any more
   std::iota(rank.begin(), rank.end(), 0);
   if (!blocks_serve()) {
@@ -36,9 +36,8 @@ void Grid::relist(const std::vector<Body>& bodies) {
   for (Mover& m : movers_)
     m.to =
         static_cast<std::size_t>(tile_of(block_of(m.i), block_of(m.j))) * body_count_ + m.from % body_count_;
-  move_between_lists(rank, bodies);
+  move_between_lists(rank, bodies, team);
   std::fill(left_.begin(), left_.end(), char{0});
-  count_scattered();
 }
 
 /// The tile of a block; -1: none.
@@ -49,26 +48,34 @@ std::int32_t Grid::tile_of(std::int32_t column, std::int32_t row) const {
 
 /// Finds the particles that have left their blocks, in the order of their lists. The cells of blocks whose
 /// particles have only spread are widened.
-void Grid::find_movers(const std::vector<Body>& bodies) {
+void Grid::find_movers(const std::vector<Body>& bodies, ThreadTeam& team) {
+  movers_of_tile_.resize(tile_block_.size());
+  team.for_each_chunk(tile_block_.size(), [&](std::size_t tile) {
+    movers_of_tile_[tile].clear();
+    if (left_[tile] != 0) find_movers_of(tile, bodies);
+  });
   movers_.clear();
+  for (const std::vector<Mover>& movers : movers_of_tile_)
+    movers_.insert(movers_.end(), movers.begin(), movers.end());
+}
+
+void Grid::find_movers_of(std::size_t tile, const std::vector<Body>& bodies) {
+  Block& block = blocks_[tile];
   const double per_cell = 1.0 / cell_;
-  for (std::size_t tile = 0; tile < tile_block_.size(); ++tile) {
-    if (left_[tile] == 0) continue;
-    Block& block = blocks_[tile];
-    const CellRange cells(block, per_cell);
-    for (std::size_t n = 0; n < body_count_; ++n) {
-      const auto& x = bodies[n].particles.position;
-      const Range range = particles(tile, n);
-      for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-        const double x0 = x[0][*at], x1 = x[1][*at];
-        if (cells.contain(x0, x1)) continue;
-        const std::int64_t i = checked_cell(x0 * per_cell, bodies[n], *at),
-                           j = checked_cell(x1 * per_cell, bodies[n], *at);
-        if (holds(block, i, j))
-          widen(block, i, j);
-        else
-          movers_.push_back({tile * body_count_ + n, 0, *at, bodies[n].particles.identity[*at], i, j});
-      }
+  const CellRange cells(block, per_cell);
+  for (std::size_t n = 0; n < body_count_; ++n) {
+    const auto& x = bodies[n].particles.position;
+    const Range range = particles(tile, n);
+    for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
+      const double x0 = x[0][*at], x1 = x[1][*at];
+      if (cells.contain(x0, x1)) continue;
+      const std::int64_t i = checked_cell(x0 * per_cell, bodies[n], *at),
+                         j = checked_cell(x1 * per_cell, bodies[n], *at);
+      if (holds(block, i, j))
+        widen(block, i, j);
+      else
+        movers_of_tile_[tile].push_back(
+            {tile * body_count_ + n, 0, *at, bodies[n].particles.identity[*at], i, j});
     }
   }
 }
@@ -118,16 +125,17 @@ std::vector<Block> Grid::blocks_after_moves() const {
 }
 
 /// Lists without those who left and with those who came, by rising identity; all others are copied.
-void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies) {
+void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
+                              ThreadTeam& team) {
   old_.offset.swap(offset_), old_.index.swap(index_);
   index_.resize(old_.index.size());
   offset_.assign(tile_block_.size() * body_count_ + 1, 0);
-  std::vector<std::ptrdiff_t> source(offset_.size() - 1, -1);  // old list
+  old_.list.assign(offset_.size() - 1, -1);
   for (std::size_t tile = 0; tile < rank.size(); ++tile)
     for (std::size_t n = 0; rank[tile] >= 0 && n < body_count_; ++n) {
       const std::size_t from = tile * body_count_ + n,
                         to = static_cast<std::size_t>(rank[tile]) * body_count_ + n;
-      source[to] = static_cast<std::ptrdiff_t>(from);
+      old_.list[to] = static_cast<std::ptrdiff_t>(from);
       offset_[to + 1] = old_.offset[from + 1] - old_.offset[from];
     }
   for (const Mover& m : movers_) {
@@ -137,37 +145,46 @@ void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::
   }
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
 
-  // Movers stand in the order of the lists that they left; those of a list in the order in which they stood.
-  std::vector<Mover> comers = movers_;
-  std::sort(comers.begin(), comers.end(), [](const Mover& a, const Mover& b) {
+  comers_ = movers_;
+  std::sort(comers_.begin(), comers_.end(), [](const Mover& a, const Mover& b) {
     return a.to != b.to ? a.to < b.to : a.identity < b.identity;
   });
-  auto comer = comers.begin();
-  for (std::size_t list = 0; list < source.size(); ++list) {
-    const auto last_comer = std::find_if(comer, comers.end(), [&](const Mover& m) { return m.to != list; });
-    const std::size_t from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(source[list], 0));
-    const std::uint32_t *at = old_.index.data() + old_.offset[from],
-                        *end = source[list] < 0 ? at : old_.index.data() + old_.offset[from + 1];
-    auto leaver = source[list] < 0
-                      ? movers_.end()
-                      : std::lower_bound(movers_.begin(), movers_.end(), from,
-                                         [](const Mover& m, std::size_t l) { return m.from < l; });
-    std::uint32_t* to = index_.data() + offset_[list];
-    if (comer == last_comer && (leaver == movers_.end() || leaver->from != from)) {
-      std::copy(at, end, to);
+  scattered_of_tile_.resize(tile_block_.size());
+  team.for_each_chunk(tile_block_.size(), [&](std::size_t tile) {
+    for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
+    scattered_of_tile_[tile] = scattered_in(tile);
+  });
+  scattered_ = std::accumulate(scattered_of_tile_.begin(), scattered_of_tile_.end(), std::size_t{0});
+}
+
+/// Makes a list of the old one and of those who left and came.
+void Grid::merge_list(std::size_t list, const Particles& p) {
+  const auto first_of = [](const std::vector<Mover>& movers, std::size_t of, std::size_t Mover::*which) {
+    return std::lower_bound(movers.begin(), movers.end(), of,
+                            [which](const Mover& m, std::size_t l) { return m.*which < l; });
+  };
+  // Movers stand in the order of the lists that they left; those of a list in the order in which they stood.
+  auto comer = first_of(comers_, list, &Mover::to);
+  const auto last_comer = std::find_if(comer, comers_.cend(), [&](const Mover& m) { return m.to != list; });
+  const bool is_new = old_.list[list] < 0;
+  const std::size_t from = is_new ? 0 : static_cast<std::size_t>(old_.list[list]);
+  const std::uint32_t *at = old_.index.data() + old_.offset[from],
+                      *end = is_new ? at : old_.index.data() + old_.offset[from + 1];
+  auto leaver = is_new ? movers_.cend() : first_of(movers_, from, &Mover::from);
+  std::uint32_t* to = index_.data() + offset_[list];
+  if (comer == last_comer && (leaver == movers_.cend() || leaver->from != from)) {
+    std::copy(at, end, to);
+    return;
+  }
+  for (; at != end; ++at) {
+    if (leaver != movers_.cend() && leaver->from == from && leaver->particle == *at) {
+      ++leaver;
       continue;
     }
-    const auto& identity = bodies[list % body_count_].particles.identity;
-    for (; at != end; ++at) {
-      if (leaver != movers_.end() && leaver->from == from && leaver->particle == *at) {
-        ++leaver;
-        continue;
-      }
-      for (; comer != last_comer && comer->identity < identity[*at]; ++comer) *to++ = comer->particle;
-      *to++ = *at;
-    }
-    for (; comer != last_comer; ++comer) *to++ = comer->particle;
+    for (; comer != last_comer && comer->identity < p.identity[*at]; ++comer) *to++ = comer->particle;
+    *to++ = *at;
   }
+  for (; comer != last_comer; ++comer) *to++ = comer->particle;
 }
 
 }  // namespace vitrum::mpm

@@ -1,3 +1,4 @@
+#include <numeric>
 #include <utility>
 
 #include "mpm/nodes.hpp"
@@ -140,20 +141,47 @@ void sum_block(Grid& grid, std::size_t index) {
     }
 }
 
-template <Scatter what>
-void scatter_all(System& system, Nodes until, double duration) {
-  using P = Plan<what>;
+template <class P, Nodes until>
+void take_block(const Pass& pass, std::size_t block) {
+  System& system = *pass.system;
   Grid& grid = system.grid;
-  dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
-    system.team->for_each_chunk(grid.tiles().size(),
-                                [&](std::size_t tile) { scatter_tile<kind, axisymmetric, P>(system, tile); });
+  sum_block<P>(grid, block);
+  if constexpr (P::momentum && until != Nodes::sums) project_block(grid, block);
+  if constexpr (until == Nodes::new_velocities) {
+    accelerate_block(grid, block, system.gravity, pass.duration);
+    if (pass.parts != nullptr)
+      (*pass.parts)[block] = external_power(system, block, Field::velocity_0, Field::new_velocity_0);
+  }
+}
+
+void book_external_work(const Pass& pass) {
+  const std::size_t blocks = pass.system->grid.blocks().size();
+  pass.system->record.external_work +=
+      pass.duration *
+      std::accumulate(pass.parts->begin(), pass.parts->begin() + static_cast<std::ptrdiff_t>(blocks), 0.0);
+}
+
+template <Scatter what>
+Pass pass_of(System& system, Nodes until) {
+  using P = Plan<what>;
+  Pass pass;
+  dispatch(system.grid, [&]<ShapeKind kind, bool axisymmetric>() {
+    pass.tile = [](const Pass& own, std::size_t tile) {
+      scatter_tile<kind, axisymmetric, P>(*own.system, tile);
+    };
   });
-  system.team->for_each_chunk(grid.blocks().size(), [&](std::size_t block) {
-    sum_block<P>(grid, block);
-    if (P::momentum && until != Nodes::sums) project_block(grid, block);
-    if (until == Nodes::new_velocities) accelerate_block(grid, block, system.gravity, duration);
-  });
-  if (until == Nodes::new_velocities) book_external_work(system, duration);
+  switch (until) {
+    case Nodes::sums:
+      pass.block = take_block<P, Nodes::sums>;
+      break;
+    case Nodes::velocities:
+      pass.block = take_block<P, Nodes::velocities>;
+      break;
+    case Nodes::new_velocities:
+      pass.block = take_block<P, Nodes::new_velocities>;
+      break;
+  }
+  return pass;
 }
 
 }  // namespace
@@ -164,7 +192,7 @@ void refresh_grid(System& system, Storage storage) {
   if (anew)
     grid.rebuild(system.bodies);
   else if (grid.some_left())
-    grid.relist(system.bodies);
+    grid.relist(system.bodies, *system.team);
   system.grid_is_stale = false;
   if (storage == Storage::kept) return;
   // Sorting costs about what scattered particles cost in a step, if all were.
@@ -184,15 +212,31 @@ void refresh_grid_for_positions(System& system) {
   refresh_grid(system);
 }
 
-void scatter(System& system, Scatter what, Nodes until, double duration) {
+Pass scatter_pass(System& system, Scatter what, Nodes until, double duration) {
+  Pass pass;
   switch (what) {
     case Scatter::momentum:
-      return scatter_all<Scatter::momentum>(system, until, duration);
+      pass = pass_of<Scatter::momentum>(system, until);
+      break;
     case Scatter::force:
-      return scatter_all<Scatter::force>(system, until, duration);
+      pass = pass_of<Scatter::force>(system, until);
+      break;
     case Scatter::momentum_and_force:
-      return scatter_all<Scatter::momentum_and_force>(system, until, duration);
+      pass = pass_of<Scatter::momentum_and_force>(system, until);
+      break;
   }
+  pass.system = &system, pass.duration = duration;
+  if (until == Nodes::new_velocities && has_external_work(system)) {
+    static thread_local std::vector<double> power_of_block;  // of the calling thread; workers write to it
+    power_of_block.resize(system.grid.blocks().size());
+    pass.parts = &power_of_block;
+    pass.finish = book_external_work;
+  }
+  return pass;
+}
+
+void scatter(System& system, Scatter what, Nodes until, double duration) {
+  sweep(system, {{scatter_pass(system, what, until, duration)}});
 }
 
 }  // namespace vitrum::mpm

@@ -8,6 +8,7 @@
 #include "mpm/grid.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/thread_team.hpp"
+#include "mpm/wave.hpp"
 
 namespace vitrum {
 
@@ -36,6 +37,7 @@ struct System {
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
   std::unique_ptr<mpm::ThreadTeam> team;
+  mpm::Wave wave;  ///< how the team goes over the grid
 
   double time = 0.0;  ///< s
   std::int64_t step_index = 0;

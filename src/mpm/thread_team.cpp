@@ -70,17 +70,10 @@ void ThreadTeam::dismiss() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void ThreadTeam::take_chunks(std::size_t thread) {
+void ThreadTeam::call_for(std::size_t thread) {
   try {
-    for (std::size_t i = 0; i < shares_.size(); ++i) {
-      Share& share = shares_[(thread + i) % shares_.size()];
-      while (share.next.load(std::memory_order_relaxed) < share.end) {
-        const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
-        if (chunk < share.end) call_(context_, chunk);
-      }
-    }
+    call_(context_, thread);
   } catch (...) {
-    for (Share& share : shares_) share.next = share.end;
     const std::lock_guard lock(of_thrown_);
     thrown_ = std::current_exception();
   }
@@ -91,22 +84,25 @@ void ThreadTeam::work(std::size_t thread) {
   while (true) {
     seen = wait_for_change(generation_, seen);
     if (stop_) return;
-    take_chunks(thread);
+    call_for(thread);
     if (busy_.fetch_sub(1) == 1) busy_.notify_all();
   }
 }
 
-void ThreadTeam::run(std::size_t chunks, Call call, void* context) {
-  call_ = call;
-  context_ = context;
+void ThreadTeam::share_out(std::size_t chunks) {
   for (std::size_t i = 0; i < shares_.size(); ++i) {
     shares_[i].next = chunks * i / shares_.size();
     shares_[i].end = chunks * (i + 1) / shares_.size();
   }
+}
+
+void ThreadTeam::run(Call call, void* context) {
+  call_ = call;
+  context_ = context;
   busy_ = workers_.size();
   ++generation_;
   generation_.notify_all();
-  take_chunks(0);
+  call_for(0);
   for (std::size_t left = busy_.load(); left != 0;) left = wait_for_change(busy_, left);
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }

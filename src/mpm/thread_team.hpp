@@ -34,9 +34,16 @@ class ThreadTeam {
       for (std::size_t i = 0; i < chunks; ++i) body(i);
       return;
     }
-    run(
-        chunks,
-        [](void* context, std::size_t i) { (*static_cast<std::remove_reference_t<Body>*>(context))(i); },
+    share_out(chunks);
+    on_each_thread([&](std::size_t thread) { take_chunks(thread, body); });
+  }
+
+  /// Calls body(thread) once on every thread, the calling one being thread 0; returns when all are done. An
+  /// exception reaches the caller (of several, one does).
+  template <class Body>
+  void on_each_thread(Body&& body) {
+    run([](void* context,
+           std::size_t thread) { (*static_cast<std::remove_reference_t<Body>*>(context))(thread); },
         &body);
   }
 
@@ -47,9 +54,25 @@ class ThreadTeam {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
   };
-  void run(std::size_t chunks, Call call, void* context);
+  void share_out(std::size_t chunks);
+  template <class Body>
+  void take_chunks(std::size_t thread, Body& body) {
+    try {
+      for (std::size_t i = 0; i < shares_.size(); ++i) {
+        Share& share = shares_[(thread + i) % shares_.size()];
+        while (share.next.load(std::memory_order_relaxed) < share.end) {
+          const std::size_t chunk = share.next.fetch_add(1, std::memory_order_relaxed);
+          if (chunk < share.end) body(chunk);
+        }
+      }
+    } catch (...) {
+      for (Share& share : shares_) share.next = share.end;
+      throw;
+    }
+  }
+  void run(Call call, void* context);
+  void call_for(std::size_t thread);
   void work(std::size_t thread);
-  void take_chunks(std::size_t thread);
   void dismiss();
   void bind_all();
 

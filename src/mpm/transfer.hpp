@@ -1,6 +1,8 @@
 #pragma once
 #include <span>
 
+#include "mpm/pass.hpp"
+#include "mpm/stress_update.hpp"
 #include "mpm/system.hpp"
 #include "mpm/trial.hpp"
 
@@ -22,6 +24,7 @@ enum class Scatter { momentum, force, momentum_and_force };
 /// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
 /// until, duration: how far the nodes are taken in the same pass, as by project_velocities and apply_forces.
 enum class Nodes { sums, velocities, new_velocities };
+Pass scatter_pass(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 void scatter(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 
 /// Nodal velocities from mass and momentum; held components get their prescribed values.
@@ -46,8 +49,10 @@ enum class Gather {
   velocity_and_rescatter,  ///< v += N (new - old), nodal `velocity` from the particles' new momenta (MUSL)
   strain_and_position,     ///< strain from `velocity`, x += dt N `new_velocity` (MUSL)
 };
+/// stress: where the pass gathers strains, takes the particles over them while their data is at hand, as
+/// update_stress would; to be booked afterwards.
+Pass gather_pass(System& system, Gather what, double duration, StressUpdate* stress = nullptr);
 void gather(System& system, Gather what, double duration);
-/// A pass that gathers strains, followed by update_stress, particle by particle while their data is at hand.
 void gather_and_update_stress(System& system, Gather what, double duration);
 
 /// Where the rates of one body's particles go: arrays of one entry a particle.

@@ -130,13 +130,14 @@ TEST_CASE(
 
 TEST_CASE("Lists amended for the particles that left are those of a rebuild", "[mpm][grid]") {
   Random random(20261125);
+  const int threads = GENERATE(1, 3);
   for (const char* shape : shapes) {
-    CAPTURE(shape);
+    CAPTURE(shape, threads);
     MpmScene scene;
     scene.geometry = "axisymmetric", scene.cell = 1.0, scene.shape = shape;
     scene.tables = body("left", box({0.0, 0.0}, {12.0, 20.0}), "particles_per_cell = 4") +
                    body("right", box({12.0, 0.0}, {21.0, 20.0}), "particles_per_cell = 1");
-    MpmRun run(scene);
+    MpmRun run(scene, threads);
     mpm::Grid& grid = run.system.grid;
     mpm::refresh_grid(run.system);
     mpm::Grid anew = grid;
@@ -160,7 +161,7 @@ TEST_CASE("Lists amended for the particles that left are those of a rebuild", "[
       for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile)
         if (grid.has_left(tile, run.system.bodies)) grid.note_left(tile);
       const std::size_t blocks = grid.blocks().size();
-      grid.relist(run.system.bodies);
+      grid.relist(run.system.bodies, *run.system.team);
       anew.rebuild(run.system.bodies);
       changed_blocks += grid.blocks().size() != blocks ? 1 : 0;
       CHECK_FALSE(grid.some_left());

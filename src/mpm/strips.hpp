@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vitrum::mpm {
+
+struct Block;
+
+/// The blocks of a grid in strips of whole rows, or of whole columns where there are more of these than rows:
+/// a strip shares nodes with the two beside it only, and short strips leave more of them in the cache. Strips
+/// come in pieces for threads to share.
+struct Strips {
+  /// Tiles [first_tile, last_tile) with their blocks (of the same numbers), and the blocks [first_empty,
+  /// last_empty) that hold no particles.
+  struct Piece {
+    std::size_t first_tile, last_tile, first_empty, last_empty;
+
+    template <class Call>
+    void for_tiles(Call&& call) const {
+      for (std::size_t tile = first_tile; tile < last_tile; ++tile) call(tile);
+    }
+    template <class Call>
+    void for_blocks(Call&& call) const {
+      for_tiles(call);
+      for (std::size_t block = first_empty; block < last_empty; ++block) call(block);
+    }
+  };
+  std::vector<Piece> pieces;
+  std::vector<std::size_t> first_pieces;  ///< strip n has the pieces [first_pieces[n], first_pieces[n + 1])
+
+  /// blocks: those with tiles first; both kinds by rising row (by_row) or column.
+  void set(const std::vector<Block>& blocks, std::size_t tiles, bool by_row);
+
+ private:
+  void add_strip(const Piece& strip);
+};
+
+/// Whether the blocks lie in at least as many rows as columns.
+bool are_tall(const std::vector<Block>& blocks);
+
+}  // namespace vitrum::mpm

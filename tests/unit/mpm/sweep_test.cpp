@@ -1,0 +1,111 @@
+#include <cstdlib>
+#include <vector>
+
+#include "mpm/transfer.hpp"
+#include "support/mpm_run.hpp"
+#include "support/random_states.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum;
+using namespace vitrum::mpm;
+using namespace vitrum::test;
+
+namespace {
+
+constexpr const char* shapes[] = {"linear", "gimp", "bspline2"};
+
+/// Two bodies in motion, tall or wide.
+MpmScene scene_of(const char* shape, bool tall) {
+  MpmScene scene;
+  scene.geometry = "axisymmetric", scene.cell = 1.0, scene.shape = shape;
+  scene.tables = tall ? body("one", box({0.0, 0.0}, {30.0, 90.0}), "particles_per_cell = 4") +
+                            body("two", box({30.0, 0.0}, {40.0, 90.0}), "particles_per_cell = 1")
+                      : body("one", box({0.0, 0.0}, {90.0, 20.0}), "particles_per_cell = 4") +
+                            body("two", box({0.0, 20.0}, {60.0, 30.0}), "particles_per_cell = 1");
+  return scene;
+}
+
+void set_in_motion(MpmRun& run) {
+  Random random(7);
+  for (std::size_t n = 0; n < 2; ++n)
+    for (auto& v : run.particles(n).velocity)
+      for (double& value : v) value = random.uniform(-1.0, 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("Strips hold every tile and block once, and share nodes with the strips beside them only",
+          "[mpm][grid]") {
+  for (const char* shape : shapes)
+    for (const bool tall : {true, false}) {
+      CAPTURE(shape, tall);
+      MpmRun run(scene_of(shape, tall));
+      // Debris far away, and a gap in the middle.
+      auto& x = run.particles(0).position;
+      for (std::size_t i = 0; i < run.particles(0).size; i += 97) x[1][i] += 400.0;
+      for (std::size_t i = 0; i < run.particles(0).size; i += 89) x[0][i] += 300.0;
+      refresh_grid(run.system);
+      const Grid& grid = run.system.grid;
+      const Strips& strips = grid.strips();
+      std::vector<int> tiles(grid.tiles().size()), blocks(grid.blocks().size());
+      std::vector<std::size_t> strip_of(blocks.size());
+      for (std::size_t strip = 0; strip + 1 < strips.first_pieces.size(); ++strip) {
+        REQUIRE(strips.first_pieces[strip] < strips.first_pieces[strip + 1]);
+        for (std::size_t n = strips.first_pieces[strip]; n < strips.first_pieces[strip + 1]; ++n) {
+          strips.pieces[n].for_tiles([&](std::size_t tile) { ++tiles[tile]; });
+          strips.pieces[n].for_blocks([&](std::size_t block) { ++blocks[block], strip_of[block] = strip; });
+        }
+      }
+      for (const int n : tiles) CHECK(n == 1);
+      for (const int n : blocks) CHECK(n == 1);
+      for (std::size_t block = 0; block < blocks.size(); ++block)
+        for (const std::int32_t other : grid.blocks()[block].neighbours)
+          if (other >= 0) {
+            const std::size_t theirs = strip_of[static_cast<std::size_t>(other)], mine = strip_of[block];
+            CHECK((theirs > mine ? theirs - mine : mine - theirs) <= 1);
+          }
+      CHECK(strips.first_pieces.size() > 8);
+    }
+}
+
+TEST_CASE("Passes taken as one wave give the bits of passes taken one by one, by any number of threads",
+          "[mpm]") {
+  const double duration = 0.01;
+  for (const char* shape : shapes)
+    for (const bool tall : {true, false}) {
+      MpmRun apart(scene_of(shape, tall));
+      set_in_motion(apart);
+      std::vector<std::unique_ptr<MpmRun>> runs;
+      for (const int threads : {1, 2, 3}) {
+        runs.push_back(std::make_unique<MpmRun>(scene_of(shape, tall), threads));
+        set_in_motion(*runs.back());
+      }
+      for (int step = 0; step < 5; ++step) {
+        System& s = apart.system;
+        refresh_grid(s);
+        scatter(s, Scatter::momentum_and_force);
+        project_velocities(s);
+        apply_forces(s, duration);
+        gather(s, Gather::velocity_and_rescatter, duration);
+        gather(s, Gather::strain_and_position, duration);
+        update_stress(s, duration);
+        for (const auto& run : runs) {
+          CAPTURE(shape, tall, step, run->system.team->size());
+          System& t = run->system;
+          refresh_grid(t);
+          StressUpdate stress(t, duration);
+          sweep(t, {{scatter_pass(t, Scatter::momentum_and_force, Nodes::new_velocities, duration),
+                     gather_pass(t, Gather::velocity_and_rescatter, duration),
+                     gather_pass(t, Gather::strain_and_position, duration, &stress)}});
+          stress.book();
+          for (std::size_t n = 0; n < 2; ++n) {
+            const Particles &a = apart.particles(n), &b = run->particles(n);
+            CHECK(a.position == b.position);
+            CHECK(a.velocity == b.velocity);
+            CHECK(a.stress == b.stress);
+          }
+          CHECK(s.record.kinetic == t.record.kinetic);
+        }
+      }
+    }
+}
