@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -63,8 +64,11 @@ struct PointReport {
   /// Forgets the last increment.
   void clear() { event_count = 0, dissipation = {}, solver = {}, cause.clear(); }
 
+  /// Events come in the order in which they happen; what rounding says otherwise is no time.
   void record(EventKind kind, double fraction) {
-    if (event_count < capacity) events[event_count++] = {kind, fraction};
+    if (event_count == capacity) return;
+    if (event_count > 0) fraction = std::max(fraction, events[event_count - 1].fraction);
+    events[event_count++] = {kind, fraction};
   }
 };
 

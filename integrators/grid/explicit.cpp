@@ -13,7 +13,6 @@
 namespace vitrum {
 
 using mpm::Gather;
-using mpm::Nodes;
 using mpm::Scatter;
 
 ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> step,
@@ -25,26 +24,23 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
   mpm::StressUpdate stress(system, duration);
-  const auto scatter = [&](Scatter what, Nodes until) {
-    return mpm::scatter_pass(system, what, until, duration);
+  const auto scatter = [&](Scatter what) {
+    return mpm::scatter_pass(system, what, mpm::Nodes::moved, duration);
   };
   const auto gather = [&](Gather what, mpm::StressUpdate* update = nullptr) {
     return mpm::gather_pass(system, what, duration, update);
   };
   switch (scheme_) {
     case StepScheme::usf:
-      mpm::sweep(system,
-                 {{scatter(Scatter::momentum, Nodes::velocities), gather(Gather::strain, &stress),
-                   scatter(Scatter::force, Nodes::new_velocities), gather(Gather::velocity_and_position)}});
+      mpm::sweep(system, {{scatter(Scatter::momentum), gather(Gather::strain, &stress),
+                           scatter(Scatter::force), gather(Gather::velocity_and_position)}});
       break;
     case StepScheme::usl:
-      mpm::sweep(system, {{scatter(Scatter::momentum_and_force, Nodes::new_velocities),
-                           gather(Gather::all_from_new, &stress)}});
+      mpm::sweep(system, {{scatter(Scatter::momentum_and_force), gather(Gather::all_from_new, &stress)}});
       break;
     case StepScheme::musl:
-      mpm::sweep(system,
-                 {{scatter(Scatter::momentum_and_force, Nodes::new_velocities),
-                   gather(Gather::velocity_and_rescatter), gather(Gather::strain_and_position, &stress)}});
+      mpm::sweep(system, {{scatter(Scatter::momentum_and_force), gather(Gather::velocity_and_rescatter),
+                           gather(Gather::strain_and_position, &stress)}});
       break;
   }
   stress.book();

@@ -217,15 +217,16 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
   return kinetic;
 }
 
-/// Adds up what the tiles hold for the momenta of a block's nodes.
-void sum_momenta(Grid& grid, std::size_t index) {
-  Pack<2> sum[block_nodes]{};
-  for_shares(grid, grid.blocks()[index], [&](const TileData& tile, std::size_t entry, std::size_t node) {
-    sum[node] += tile.packs<2>()[entry];
+/// Adds up what the tiles hold for the momenta of a block's nodes: their velocities.
+void project_momenta(const Pass& pass, std::size_t block) {
+  Grid& grid = pass.system->grid;
+  Pack<2> sums[block_nodes]{};
+  for_shares(grid, grid.blocks()[block], [&](const TileData& tile, std::size_t entry, std::size_t node) {
+    sums[node] += tile.packs<2>()[entry];
   });
-  double *p0 = grid.field(Field::momentum_0) + index * block_nodes,
-         *p1 = grid.field(Field::momentum_1) + index * block_nodes;
-  for (int node = 0; node < block_nodes; ++node) p0[node] = sum[node][0], p1[node] = sum[node][1];
+  alignas(64) double p0[block_nodes], p1[block_nodes];
+  for (int node = 0; node < block_nodes; ++node) p0[node] = sums[node][0], p1[node] = sums[node][1];
+  project_block(grid, block, {p0, p1});
 }
 
 void book_kinetic_energy(const Pass& pass) {
@@ -251,11 +252,7 @@ Pass pass_of(System& system, double duration) {
     pass.parts = &kinetic_of_tile;
     pass.finish = book_kinetic_energy;
   }
-  if constexpr (P::rescatter)
-    pass.block = [](const Pass& own, std::size_t block) {
-      sum_momenta(own.system->grid, block);
-      project_block(own.system->grid, block);
-    };
+  if constexpr (P::rescatter) pass.block = project_momenta;
   return pass;
 }
 

@@ -1,6 +1,7 @@
 #include "mpm/grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 #include "mpm/blocks.hpp"
@@ -119,8 +120,20 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
   add_neighbours(by_row);
   strips_.set(blocks_, tile_block_.size(), by_row);
   mark_constraints();
+  for (std::size_t field = 0; field < (keeps_sums_ ? field_count : moved_field_count); ++field)
+    fields_[field].resize(blocks_.size() * block_nodes);
+}
+
+void Grid::keep_sums() {
+  keeps_sums_ = true;
   for (std::vector<double>& field : fields_) field.resize(blocks_.size() * block_nodes);
-  tile_data_.resize(tile_block_.size());
+}
+
+void Grid::provide_tile_data(std::size_t window) {
+  const std::size_t tiles = window == 0 ? tile_block_.size() : strips_.most_tiles_in(window);
+  const std::size_t room = std::bit_ceil(std::max<std::size_t>(tiles, 1));
+  tile_slot_ = room - 1;
+  tile_data_.resize(std::min(room, tile_block_.size()));
 }
 
 /// By how many blocks to the left, right, below and above the nodes lie that a block's particles may touch.

@@ -39,19 +39,19 @@ struct alignas(64) TileData {
 /// Per-node quantities of a step.
 enum class Field : std::size_t {
   mass,
-  momentum_0,
-  momentum_1,
-  force_0,
-  force_1,
   velocity_0,  ///< before the forces act, boundary values imposed
   velocity_1,
   new_velocity_0,  ///< after
   new_velocity_1,
+  momentum_0,  ///< these four only where someone asks for sums (Grid::keep_sums)
+  momentum_1,
+  force_0,
+  force_1,
   // Rates have no new velocities: accelerations (m/s^2) take their place.
   acceleration_0 = new_velocity_0,
   acceleration_1 = new_velocity_1,
 };
-inline constexpr std::size_t field_count = 9;
+inline constexpr std::size_t field_count = 9, moved_field_count = 5;  // of these, without the sums
 
 /// A square of block_side x block_side nodes (and the cells to their upper right).
 struct Block {
@@ -137,7 +137,12 @@ class Grid {
   const Strips& strips() const { return strips_; }
   double* field(Field f) { return fields_[static_cast<std::size_t>(f)].data(); }
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
-  TileData& tile_data(std::size_t tile) { return tile_data_[tile]; }
+  /// Has room for momenta and forces from now on.
+  void keep_sums();
+  /// The data of a tile. Tiles may share it that a sweep does not need at a time (provide_tile_data).
+  TileData& tile_data(std::size_t tile) { return tile_data_[tile & tile_slot_]; }
+  /// Room for all tiles (window: 0), or for those of so many strips one after the other.
+  void provide_tile_data(std::size_t window);
 
   std::int16_t constraint(std::size_t component, std::size_t node) const {
     return constraints_[component][node];
@@ -200,7 +205,9 @@ class Grid {
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;
+  bool keeps_sums_ = false;
   std::vector<TileData> tile_data_;
+  std::size_t tile_slot_ = 0;  // mask: tile -> its place in tile_data_
 };
 
 }  // namespace vitrum::mpm

@@ -34,12 +34,19 @@ bool has_external_work(const System& system) {
   return works;
 }
 
-void project_block(Grid& grid, std::size_t block) {
-  const double *mass = grid.field(Field::mass), *p0 = grid.field(Field::momentum_0),
-               *p1 = grid.field(Field::momentum_1);
-  double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
+BlockVector block_vector(const Grid& grid, std::size_t block, Field component_0) {
+  const auto component = [&](std::size_t c) {
+    return grid.field(static_cast<Field>(static_cast<std::size_t>(component_0) + c)) + block * block_nodes;
+  };
+  return {component(0), component(1)};
+}
+
+void project_block(Grid& grid, std::size_t block, const BlockVector& momentum) {
+  const std::size_t first = block * block_nodes;
+  const double *mass = grid.field(Field::mass) + first, *p0 = momentum[0], *p1 = momentum[1];
+  double *v0 = grid.field(Field::velocity_0) + first, *v1 = grid.field(Field::velocity_1) + first;
 #pragma GCC ivdep
-  for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+  for (std::size_t n = 0; n < block_nodes; ++n) {
     const double per_mass = mass[n] > empty ? 1.0 / mass[n] : 0.0;
     v0[n] = p0[n] * per_mass;
     v1[n] = p1[n] * per_mass;
@@ -47,14 +54,15 @@ void project_block(Grid& grid, std::size_t block) {
   if (grid.blocks()[block].constrained) impose(grid, block, Field::velocity_0);
 }
 
-void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>& gravity, double duration) {
-  const double* mass = grid.field(Field::mass);
-  const double *f0 = grid.field(Field::force_0), *f1 = grid.field(Field::force_1);
-  const double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1);
-  double *w0 = grid.field(Field::new_velocity_0), *w1 = grid.field(Field::new_velocity_1);
+void accelerate_block(Grid& grid, std::size_t block, const BlockVector& force,
+                      const std::array<double, 2>& gravity, double duration) {
+  const std::size_t first = block * block_nodes;
+  const double *mass = grid.field(Field::mass) + first, *f0 = force[0], *f1 = force[1];
+  const double *v0 = grid.field(Field::velocity_0) + first, *v1 = grid.field(Field::velocity_1) + first;
+  double *w0 = grid.field(Field::new_velocity_0) + first, *w1 = grid.field(Field::new_velocity_1) + first;
   const double fall0 = duration * gravity[0], fall1 = duration * gravity[1];
 #pragma GCC ivdep
-  for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
+  for (std::size_t n = 0; n < block_nodes; ++n) {
     const bool filled = mass[n] > empty;
     const double scale = filled ? duration / mass[n] : 0.0;
     w0[n] = v0[n] + scale * f0[n] + (filled ? fall0 : 0.0);
@@ -63,21 +71,18 @@ void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>
   if (grid.blocks()[block].constrained) impose(grid, block, Field::new_velocity_0);
 }
 
-double external_power(const System& system, std::size_t block, Field from, Field to) {
+double external_power(const System& system, std::size_t block, const BlockVector& force, Field from,
+                      Field to) {
   const Grid& grid = system.grid;
-  const double* mass = grid.field(Field::mass);
+  const double* mass = grid.field(Field::mass) + block * block_nodes;
+  const BlockVector v = block_vector(grid, block, from), w = block_vector(grid, block, to);
   double power = 0.0;
-  for (std::size_t c = 0; c < 2; ++c) {
-    const auto component = [&](Field f) {
-      return grid.field(static_cast<Field>(static_cast<std::size_t>(f) + c));
-    };
-    const double *force = component(Field::force_0), *v = component(from), *w = component(to);
-    for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
-      const double mean = 0.5 * (v[n] + w[n]), weight = mass[n] * system.gravity[c];
+  for (std::size_t c = 0; c < 2; ++c)
+    for (std::size_t n = 0; n < block_nodes; ++n) {
+      const double mean = 0.5 * (v[c][n] + w[c][n]), weight = mass[n] * system.gravity[c];
       power += weight * mean;
-      if (grid.constraint(c, n) >= 0) power -= (force[n] + weight) * mean;
+      if (grid.constraint(c, block * block_nodes + n) >= 0) power -= (force[c][n] + weight) * mean;
     }
-  }
   return power;
 }
 
@@ -87,20 +92,22 @@ double external_power_of_all(const System& system, Field from, Field to) {
   double power = 0.0;
   if (has_external_work(system))
     for (std::size_t block = 0; block < system.grid.blocks().size(); ++block)
-      power += external_power(system, block, from, to);
+      power += external_power(system, block, block_vector(system.grid, block, Field::force_0), from, to);
   return power;
 }
 
 }  // namespace
 
 void project_velocities(System& system) {
-  system.team->for_each_chunk(system.grid.blocks().size(),
-                              [&](std::size_t block) { project_block(system.grid, block); });
+  system.team->for_each_chunk(system.grid.blocks().size(), [&](std::size_t block) {
+    project_block(system.grid, block, block_vector(system.grid, block, Field::momentum_0));
+  });
 }
 
 void apply_forces(System& system, double duration) {
   system.team->for_each_chunk(system.grid.blocks().size(), [&](std::size_t block) {
-    accelerate_block(system.grid, block, system.gravity, duration);
+    accelerate_block(system.grid, block, block_vector(system.grid, block, Field::force_0), system.gravity,
+                     duration);
   });
   system.record.external_work +=
       duration * external_power_of_all(system, Field::velocity_0, Field::new_velocity_0);

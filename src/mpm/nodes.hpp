@@ -4,14 +4,21 @@
 #include "mpm/system.hpp"
 
 /// The parts of project_velocities and apply_forces (transfer.hpp) for one block, for passes that go on with
-/// a block's nodes as soon as these are summed.
+/// a block's nodes as soon as these are summed. momentum, force: of its nodes only.
 namespace vitrum::mpm {
 
-void project_block(Grid& grid, std::size_t block);
-void accelerate_block(Grid& grid, std::size_t block, const std::array<double, 2>& gravity, double duration);
+using BlockVector = std::array<const double*, 2>;
+
+/// The components of a nodal vector, of a block's nodes. component_0: the first; the other follows.
+BlockVector block_vector(const Grid& grid, std::size_t block, Field component_0);
+
+void project_block(Grid& grid, std::size_t block, const BlockVector& momentum);
+void accelerate_block(Grid& grid, std::size_t block, const BlockVector& force,
+                      const std::array<double, 2>& gravity, double duration);
 /// Work (J per radian or metre, over a second) of gravity on a block's nodes and of the reaction -(f + m g)
 /// that keeps a node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity)
 /// nodes and the axis do no work.
-double external_power(const System& system, std::size_t block, Field from, Field to);
+double external_power(const System& system, std::size_t block, const BlockVector& force, Field from,
+                      Field to);
 
 }  // namespace vitrum::mpm

@@ -1,3 +1,4 @@
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -122,35 +123,46 @@ void scatter_tile(System& system, std::size_t tile) {
   }
 }
 
-/// Adds up what the tiles hold for the nodes of a block.
+/// Adds up what the tiles hold for the nodes of a block: their masses, and their vectors by component.
 template <class P>
-void sum_block(Grid& grid, std::size_t index) {
+void sum_block(Grid& grid, std::size_t index, const std::array<double*, P::width>& to) {
   Pack<P::width> vectors[block_nodes]{};
   double mass[block_nodes]{};
   for_shares(grid, grid.blocks()[index], [&](const TileData& tile, std::size_t entry, std::size_t node) {
     vectors[node] += tile.template packs<P::width>()[entry];
     if constexpr (P::momentum) mass[node] += tile.mass[entry];
   });
-  const std::size_t first = index * block_nodes;
-  if constexpr (P::momentum) std::copy(mass, mass + block_nodes, grid.field(Field::mass) + first);
-  const Field fields[] = {P::momentum ? Field::momentum_0 : Field::force_0, Field::force_0};
-  for (int vector = 0; vector < P::width / 2; ++vector)
-    for (int c = 0; c < 2; ++c) {
-      double* field = grid.field(static_cast<Field>(static_cast<int>(fields[vector]) + c)) + first;
-      for (int node = 0; node < block_nodes; ++node) field[node] = vectors[node][2 * vector + c];
-    }
+  if constexpr (P::momentum)
+    std::copy(mass, mass + block_nodes, grid.field(Field::mass) + index * block_nodes);
+  for (std::size_t c = 0; c < P::width; ++c)
+    for (int node = 0; node < block_nodes; ++node) to[c][node] = vectors[node][c];
 }
 
-template <class P, Nodes until>
-void take_block(const Pass& pass, std::size_t block) {
+/// The sums of a block, to be kept.
+template <class P>
+void store_sums(const Pass& pass, std::size_t block) {
+  constexpr auto first = static_cast<std::size_t>(P::momentum ? Field::momentum_0 : Field::force_0);
+  std::array<double*, P::width> to{};
+  for (std::size_t c = 0; c < P::width; ++c)
+    to[c] = pass.system->grid.field(static_cast<Field>(first + c)) + block * block_nodes;
+  sum_block<P>(pass.system->grid, block, to);
+}
+
+/// The sums of a block are made velocities at once, and new velocities if it has forces.
+template <class P>
+void move_block(const Pass& pass, std::size_t block) {
   System& system = *pass.system;
   Grid& grid = system.grid;
-  sum_block<P>(grid, block);
-  if constexpr (P::momentum && until != Nodes::sums) project_block(grid, block);
-  if constexpr (until == Nodes::new_velocities) {
-    accelerate_block(grid, block, system.gravity, pass.duration);
+  alignas(64) double sums[P::width][block_nodes];
+  std::array<double*, P::width> to{};
+  for (std::size_t c = 0; c < P::width; ++c) to[c] = sums[c];
+  sum_block<P>(grid, block, to);
+  if constexpr (P::momentum) project_block(grid, block, {sums[0], sums[1]});
+  if constexpr (P::force) {
+    const BlockVector force{sums[P::width - 2], sums[P::width - 1]};
+    accelerate_block(grid, block, force, system.gravity, pass.duration);
     if (pass.parts != nullptr)
-      (*pass.parts)[block] = external_power(system, block, Field::velocity_0, Field::new_velocity_0);
+      (*pass.parts)[block] = external_power(system, block, force, Field::velocity_0, Field::new_velocity_0);
   }
 }
 
@@ -170,17 +182,8 @@ Pass pass_of(System& system, Nodes until) {
       scatter_tile<kind, axisymmetric, P>(*own.system, tile);
     };
   });
-  switch (until) {
-    case Nodes::sums:
-      pass.block = take_block<P, Nodes::sums>;
-      break;
-    case Nodes::velocities:
-      pass.block = take_block<P, Nodes::velocities>;
-      break;
-    case Nodes::new_velocities:
-      pass.block = take_block<P, Nodes::new_velocities>;
-      break;
-  }
+  if (until == Nodes::sums) system.grid.keep_sums();
+  pass.block = until == Nodes::sums ? store_sums<P> : move_block<P>;
   return pass;
 }
 
@@ -226,7 +229,7 @@ Pass scatter_pass(System& system, Scatter what, Nodes until, double duration) {
       break;
   }
   pass.system = &system, pass.duration = duration;
-  if (until == Nodes::new_velocities && has_external_work(system)) {
+  if (until == Nodes::moved && what != Scatter::momentum && has_external_work(system)) {
     static thread_local std::vector<double> power_of_block;  // of the calling thread; workers write to it
     power_of_block.resize(system.grid.blocks().size());
     pass.parts = &power_of_block;

@@ -8,9 +8,9 @@ namespace vitrum::mpm {
 namespace {
 
 /// A strip of fewer tiles is not worth a thread's asking for it.
-constexpr std::size_t fewest_tiles = 4;
+constexpr std::size_t fewest_tiles = 2;
 /// A piece of more tiles would leave other threads waiting.
-constexpr std::size_t most_tiles = 8;
+constexpr std::size_t most_tiles = 4;
 
 std::size_t count_distinct(std::vector<std::int32_t>& values) {
   std::sort(values.begin(), values.end());
@@ -41,6 +41,16 @@ void Strips::set(const std::vector<Block>& blocks, std::size_t tiles, bool by_ro
     strip.first_tile = strip.last_tile, strip.first_empty = strip.last_empty;
   }
   if (strip.first_tile < strip.last_tile || strip.first_empty < strip.last_empty) add_strip(strip);
+}
+
+std::size_t Strips::most_tiles_in(std::size_t strips) const {
+  std::size_t most = 0;
+  const std::size_t count = first_pieces.size() - 1;
+  for (std::size_t first = 0; first < count; ++first) {
+    const std::size_t last = std::min(first + strips, count);
+    most = std::max(most, pieces[first_pieces[last] - 1].last_tile - pieces[first_pieces[first]].first_tile);
+  }
+  return most;
 }
 
 void Strips::add_strip(const Piece& strip) {

@@ -31,6 +31,8 @@ struct Strips {
 
   /// blocks: those with tiles first; both kinds by rising row (by_row) or column.
   void set(const std::vector<Block>& blocks, std::size_t tiles, bool by_row);
+  /// The most tiles that so many strips one after the other have.
+  std::size_t most_tiles_in(std::size_t strips) const;
 
  private:
   void add_strip(const Piece& strip);

@@ -18,7 +18,9 @@ void sweep(System& system, std::span<const Pass> passes) {
     stages[count++] = {&pass, false};
     if (pass.block != nullptr) stages[count++] = {&pass, true};
   }
+  // One thread is done with a strip's tile data once the wave's end has passed it.
   const Strips& strips = system.grid.strips();
+  system.grid.provide_tile_data(system.team->size() == 1 ? count + 1 : 0);
   system.wave.run(*system.team, strips.first_pieces, count, [&](std::size_t stage, std::size_t n) {
     const auto [pass, of_blocks] = stages[stage];
     const Strips::Piece& piece = strips.pieces[n];

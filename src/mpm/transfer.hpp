@@ -22,8 +22,9 @@ enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
 /// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
 /// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
-/// until, duration: how far the nodes are taken in the same pass, as by project_velocities and apply_forces.
-enum class Nodes { sums, velocities, new_velocities };
+/// until: whether nodes keep their sums, or go on at once as by project_velocities and (with forces, for
+/// `duration` seconds) apply_forces; momenta and forces then reach no memory.
+enum class Nodes { sums, moved };
 Pass scatter_pass(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 void scatter(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 

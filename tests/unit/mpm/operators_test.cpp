@@ -155,7 +155,7 @@ TEST_CASE("Operators give the same bits wherever particles lie in memory", "[mpm
       refresh_grid(sorted.system, Storage::sorted), refresh_grid(mixed.system, Storage::kept);
       for (MpmRun* run : {&sorted, &mixed}) {
         System& s = run->system;
-        scatter(s, Scatter::momentum_and_force, Nodes::new_velocities, 0.01);
+        scatter(s, Scatter::momentum_and_force, Nodes::moved, 0.01);
         gather(s, Gather::velocity_and_rescatter, 0.01);
         gather_and_update_stress(s, Gather::strain_and_position, 0.01);
       }

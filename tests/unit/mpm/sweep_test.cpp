@@ -94,7 +94,7 @@ TEST_CASE("Passes taken as one wave give the bits of passes taken one by one, by
           System& t = run->system;
           refresh_grid(t);
           StressUpdate stress(t, duration);
-          sweep(t, {{scatter_pass(t, Scatter::momentum_and_force, Nodes::new_velocities, duration),
+          sweep(t, {{scatter_pass(t, Scatter::momentum_and_force, Nodes::moved, duration),
                      gather_pass(t, Gather::velocity_and_rescatter, duration),
                      gather_pass(t, Gather::strain_and_position, duration, &stress)}});
           stress.book();
