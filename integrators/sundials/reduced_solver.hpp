@@ -36,6 +36,8 @@ class ReducedSolver {
   /// Whether the last factorisation failed for want of memory.
   bool out_of_memory() const;
   std::int64_t factorisations() const { return factorisations_; }
+  /// Entries of both factors (KLU); 0 before the first.
+  std::int64_t factor_entries() const;
   const std::vector<double>& last_solution() const { return last_solution_; }
 
  private:

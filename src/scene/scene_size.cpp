@@ -25,8 +25,8 @@ constexpr double of_block =
 constexpr double of_unknowns = 9.0 * 8.0, vectors = 11.0, vectors_of_stage = 1.5;
 /// arkode-implicit: vectors over nodes and particles, tangents, and the matrix.
 constexpr double of_implicit_cell = 3600.0;
-/// Fill of the factors: a front as long as a body is wide in cells runs through its cells.
-constexpr double of_factor = 340.0, wider_stencil = 2.6;
+/// Fill of the factors: grows with a body's width in cells, less than in proportion (minimum degree).
+constexpr double of_factor = 600.0, fill_exponent = 0.6, wider_stencil = 2.6;
 
 double blocks(const ShapeMeasures& m, double cell) {
   const double side = mpm::block_side * cell;
@@ -35,7 +35,8 @@ double blocks(const ShapeMeasures& m, double cell) {
 
 double factor(const ShapeMeasures& m, const Scene& scene) {
   const double cells = m.area / (scene.cell * scene.cell), front = std::max(m.width / scene.cell, 1.0);
-  return of_factor * cells * front * (scene.shape_functions == ShapeFunctions::linear ? 1.0 : wider_stencil);
+  return of_factor * cells * std::pow(front, fill_exponent) *
+         (scene.shape_functions == ShapeFunctions::linear ? 1.0 : wider_stencil);
 }
 
 bool factorises(const IntegratorDefinition& i) {

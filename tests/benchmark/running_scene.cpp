@@ -8,7 +8,8 @@ namespace vitrum::benchmarks {
 
 Scene bar(long thousands, std::vector<std::string> overrides) {
   // 4 particles a cell over 5 mm x 25 mm; the step is 0.2 cells of the wave speed, as in the file.
-  const std::map<long, double> cells{{1, 0.625e-3}, {20, 0.15625e-3}, {80, 0.078125e-3}, {500, 0.03125e-3}};
+  const std::map<long, double> cells{
+      {1, 0.625e-3}, {5, 0.3125e-3}, {20, 0.15625e-3}, {80, 0.078125e-3}, {500, 0.03125e-3}};
   const double cell = cells.at(thousands);
   overrides.push_back(fmt::format("space.cell={:.17g}", cell));
   overrides.push_back(fmt::format("integrator.step={:.17g}", 3.095e-9 * cell / 0.078125e-3));

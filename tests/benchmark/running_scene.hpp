@@ -15,7 +15,7 @@ inline Scene study(const std::string& file, const std::vector<std::string>& over
   return read_scene(std::string(VITRUM_SOURCE_DIR) + "/studies/" + file, overrides);
 }
 
-/// The elastic bar and the two disks with about `thousands` thousand particles: 1, 20, 80 or 500.
+/// The elastic bar and the two disks with about `thousands` thousand particles: 1, 5 (bar), 20, 80 or 500.
 Scene bar(long thousands, std::vector<std::string> overrides = {});
 Scene disks(long thousands, std::vector<std::string> overrides = {});
 /// The paper's reference case with a step that resolves it.

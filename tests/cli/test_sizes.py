@@ -127,8 +127,8 @@ class Estimates(CommandLineTest):
                 {"body__0__box__max": large, "space__shape_functions": '"bspline2"', "output__checkpoint_every": 2e-8},
                 {"body__0__box__max": large, "integrator__method": '"arkode-explicit"', "integrator__order": 2},
                 {"body__0__box__max": large, "integrator__method": '"arkode-explicit"', "integrator__order": 5},
-                {"body__0__box__max": "[0.03, 0.03]", "space__shape_functions": '"bspline2"', **implicit},
-                {"body__0__box__max": "[0.05, 0.04]", **implicit}, {"body__0__box__max": "[0.5, 0.005]", **implicit},
+                {"body__0__box__max": "[0.05, 0.04]", "space__shape_functions": '"bspline2"', **implicit},
+                {"body__0__box__max": "[0.1, 0.1]", **implicit}, {"body__0__box__max": "[0.5, 0.02]", **implicit},
                 {"body__0__box__max": "[0.1, 0.1]", "integrator__linear_solver": '"gmres"', "integrator__preconditioner": '"diagonal"', **implicit}]
         for changes in runs:
             top = float(changes["body__0__box__max"].split(",")[1].rstrip("]")) + 1e-3
