@@ -73,6 +73,61 @@ bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTenso
   return true;
 }
 
+/// The same for particles [begin, end), at most elastic_run of them: marks those that do not stay elastic,
+/// and tells whether there are any. Written to be vectorised.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end,
+                                        double duration, Marks& marks) const {
+  const auto variable = [&](Variable v) { return p.start_variables[static_cast<std::size_t>(v)] + begin; };
+  const double *a0 = p.start_strain[0] + begin, *a1 = p.start_strain[1] + begin,
+               *a2 = p.start_strain[2] + begin, *a3 = p.start_strain[3] + begin;
+  const double *d0 = p.strain_increment[0] + begin, *d1 = p.strain_increment[1] + begin,
+               *d2 = p.strain_increment[2] + begin, *d3 = p.strain_increment[3] + begin;
+  const double* density = D ? variable(Variable::crack_density) : a0;
+  const double* max_rate = D ? variable(Variable::max_rate) : a0;
+  const double* plastic_strain = has_yield ? variable(Variable::plastic_strain) : a0;
+  const double* effective_length = C ? variable(Variable::effective_length) : a0;
+  const std::size_t size = end - begin;
+  double mean[elastic_run],
+      power[elastic_run];  // strain where damage may grow, otherwise 0; its m-th power
+  std::int64_t any = 0;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) {
+    const SymmetricTensor e0{a0[k], a1[k], a2[k], a3[k]},
+        e1{a0[k] + d0[k], a1[k] + d1[k], a2[k] + d2[k], a3[k] + d3[k]};
+    const double t0 = trace(e0), t1 = trace(e1);
+    const bool tension = (t0 > 0.0) | (t1 > 0.0), changes_side = tension & ((t0 < 0.0) | (t1 < 0.0));
+    bool mark = false;
+    if constexpr (C) mark |= effective_length[k] > 0.0;
+    if constexpr (D || Y == Yielding::drucker_prager) mark |= changes_side;
+    if constexpr (D) {
+      const bool grows = (t1 > t0) & tension;
+      mark |= grows & (t1 - t0 > 3.0 * duration * max_rate[k]);
+      mean[k] = grows ? t1 / 3.0 : 0.0;
+      power[k] = 1.0;
+    }
+    if constexpr (has_yield) {
+      const Moduli moduli = secant_without_branches(tension ? 1.0 : -1.0, density[k]);
+      if constexpr (Y == Yielding::von_mises)
+        mark |= !(von_mises_.yield_function(e1, moduli, plastic_strain[k]) <= 0.0);
+      else
+        mark |= !tension & !(drucker_prager_.yield_function(e1, moduli) <= 0.0);
+    }
+    marks[k] = mark ? 1 : 0;
+  }
+  if constexpr (D) {
+    damage_.raise(mean, power, size);
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < size; ++k) {
+      const double rate = damage_.effective_rate(max_rate[k]),
+                   target = std::min(damage_.coefficient(rate) * power[k], crack_density_limit);
+      marks[k] |= target > density[k] ? 1 : 0;
+    }
+  }
+  for (std::size_t k = 0; k < size; ++k) any |= marks[k];
+  return any != 0;
+}
+
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::load(const ParticleColumns& p, std::size_t i, PointState& s) const {
   s.elastic_strain = {p.start_strain[0][i], p.start_strain[1][i], p.start_strain[2][i], p.start_strain[3][i]};
@@ -192,16 +247,18 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
   std::size_t elastic_from = begin;
   PointState s;
   PointReport point;
-  for (std::size_t i = begin; i < end; ++i) {
-    load(p, i, s);
-    const SymmetricTensor elastic_end =
-        s.elastic_strain + SymmetricTensor{p.strain_increment[0][i], p.strain_increment[1][i],
-                                           p.strain_increment[2][i], p.strain_increment[3][i]};
-    if (stays_elastic(s, elastic_end, duration)) continue;
-    stored += take_elastic(p, elastic_from, i);
-    stored += take_inelastic(p, i, s, duration, integrator, point, report);
-    if (report.failed) return;  // the step fails, whatever comes after
-    elastic_from = i + 1;
+  Marks inelastic;
+  for (std::size_t first = begin; first < end; first += elastic_run) {
+    const std::size_t last = std::min(end, first + elastic_run);
+    if (!mark_inelastic(p, first, last, duration, inelastic)) continue;
+    for (std::size_t i = first; i < last; ++i) {
+      if (inelastic[i - first] == 0) continue;
+      load(p, i, s);
+      stored += take_elastic(p, elastic_from, i);
+      stored += take_inelastic(p, i, s, duration, integrator, point, report);
+      if (report.failed) return;  // the step fails, whatever comes after
+      elastic_from = i + 1;
+    }
   }
   stored += take_elastic(p, elastic_from, end);
   report.elastic += stored;

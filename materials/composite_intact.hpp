@@ -104,7 +104,7 @@ double Composite<D, Y, C>::flow(PointState& s, const Moduli& moduli,
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::yield_function(const PointState& s, const Moduli& moduli) const {
   if constexpr (Y == Yielding::von_mises)
-    return 2.0 * moduli.shear * norm(deviator(s.elastic_strain)) - von_mises_.radius(s.plastic_strain);
+    return von_mises_.yield_function(s.elastic_strain, moduli, s.plastic_strain);
   else if constexpr (Y == Yielding::drucker_prager)
     return drucker_prager_.yield_function(s.elastic_strain, moduli);
   else

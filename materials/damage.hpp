@@ -48,16 +48,27 @@ class DamageLaw {
   double damage(double x) const { return 1.0 - moduli(x).bulk / undamaged_.bulk; }
 
   /// The rate that enters eq. 7 when the running maximum is `max_rate`, 1/s.
-  double effective_rate(double max_rate) const {
+  VITRUM_INLINE double effective_rate(double max_rate) const {
     return parameters_.fixed_rate > 0.0 ? parameters_.fixed_rate : std::max(max_rate, parameters_.rate_floor);
   }
   /// C(R) of rho_d = C eps_v^m (eq. 7). rate: 1/s, > 0.
-  double coefficient(double rate) const { return coefficient_at_unit_rate_ / (rate * rate); }
+  VITRUM_INLINE double coefficient(double rate) const { return coefficient_at_unit_rate_ / (rate * rate); }
 
   /// Crack density of eq. 7 at mean strain eps_v = tr(e)/3, capped at 9/16; 0 where eps_v <= 0.
   double target(double mean_strain, double coefficient) const {
     if (mean_strain <= 0.0) return 0.0;
     return std::min(coefficient * power(mean_strain), crack_density_limit);
+  }
+  /// Multiplies `result` with the m-th powers of `values`, which it uses up: v^m to the bit of `target`, for
+  /// several at a time.
+  void raise(double* values, double* result, std::size_t size) const {
+    if (integer_exponent_ == 0)
+      for (std::size_t k = 0; k < size; ++k) result[k] *= std::pow(values[k], parameters_.m);
+    for (unsigned n = integer_exponent_; n != 0; n >>= 1) {
+      if (n & 1U)
+        for (std::size_t k = 0; k < size; ++k) result[k] *= values[k];
+      for (std::size_t k = 0; k < size; ++k) values[k] *= values[k];
+    }
   }
   /// d(target)/d(mean strain), without the cap.
   double target_slope(double mean_strain, double coefficient) const {

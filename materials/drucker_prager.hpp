@@ -25,7 +25,7 @@ class DruckerPragerLaw {
       : parameters_(parameters), dilatancy_(parameters.associated ? parameters.beta : 0.0) {}
 
   /// q - (sigma_y + beta P), Pa, of an elastic strain.
-  double yield_function(const SymmetricTensor& elastic_strain, const Moduli& moduli) const {
+  VITRUM_INLINE double yield_function(const SymmetricTensor& elastic_strain, const Moduli& moduli) const {
     const SymmetricTensor d = deviator(elastic_strain);
     const double q = 2.0 * moduli.shear * std::sqrt(1.5 * contract(d, d));
     return q - (parameters_.yield - parameters_.beta * moduli.bulk * trace(elastic_strain));

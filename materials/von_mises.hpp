@@ -45,10 +45,12 @@ class VonMisesLaw {
   double floor_strain() const { return floor_strain_; }
 
   /// sigma_bar of eq. 21, Pa.
-  double strength(double plastic_strain) const {
-    if (plastic_strain < peak_strain_) return parameters_.yield + parameters_.hardening * plastic_strain;
-    return std::max(parameters_.peak - parameters_.softening * (plastic_strain - peak_strain_),
-                    residual_fraction * parameters_.peak);
+  VITRUM_INLINE double strength(double plastic_strain) const {
+    const double rising = parameters_.yield + parameters_.hardening * plastic_strain;
+    const double falling =
+        std::max(parameters_.peak - parameters_.softening * (plastic_strain - peak_strain_),
+                 residual_fraction * parameters_.peak);
+    return plastic_strain < peak_strain_ ? rising : falling;
   }
   /// d strength / dI on the branch that plastic flow takes from here, Pa.
   double modulus(double plastic_strain) const {
@@ -56,7 +58,12 @@ class VonMisesLaw {
     return plastic_strain < floor_strain_ ? -parameters_.softening : 0.0;
   }
   /// Radius of the yield surface |s| = sqrt(2/3) sigma_bar, Pa.
-  double radius(double plastic_strain) const { return factor * strength(plastic_strain); }
+  VITRUM_INLINE double radius(double plastic_strain) const { return factor * strength(plastic_strain); }
+  /// |s| less that radius, Pa, of an elastic strain.
+  VITRUM_INLINE double yield_function(const SymmetricTensor& elastic_strain, const Moduli& moduli,
+                                      double plastic_strain) const {
+    return 2.0 * moduli.shear * norm(deviator(elastic_strain)) - radius(plastic_strain);
+  }
 
   /// Radial return of a trial deviator of norm `trial` (Pa) with shear modulus `shear`; raises
   /// `plastic_strain`. Exact for proportional paths over any number of branches. Zero flow where the trial is

@@ -44,7 +44,7 @@ VITRUM_INLINE constexpr SymmetricTensor deviator(const SymmetricTensor& a) {
 VITRUM_INLINE constexpr double contract(const SymmetricTensor& a, const SymmetricTensor& b) {
   return a.rr * b.rr + a.zz * b.zz + a.tt * b.tt + 2.0 * a.rz * b.rz;
 }
-inline double norm(const SymmetricTensor& a) {
+VITRUM_INLINE double norm(const SymmetricTensor& a) {
   return std::sqrt(contract(a, a));
 }
 
