@@ -1,8 +1,8 @@
 """Flops and bytes of one particle-step, counted from the source: explicit MUSL, linear shape functions, axisymmetric, elastic.
 
 An addition, a product and a quotient are a flop each; products with 1 and -1, comparisons and conversions are none. What the vector of a
-node carries along without need is not counted. Bytes are those of a scene that no cache holds: every column that a pass touches, once; a
-column that is only written is read first (write-allocate).
+node carries along without need is not counted. Bytes are those of a scene that no cache holds, but whose strips of blocks one does: every
+column comes from memory once a step and, if it is changed, goes back once.
 """
 
 # src/mpm/stencil.hpp, in each of three passes: x / h, s, 1 - s, for two axes.
@@ -20,9 +20,8 @@ elastic = 4 + series + rotation + 10 + 19
 nodes = 30
 
 double = 8
-bytes_scatter = (2 + 2 + 1 + 4) * double  # position, velocity, mass, stress
-bytes_velocity = (2 + 1 + 2 + 2) * double  # position, mass, velocity read and written
-bytes_strain = (2 * 2 + 1 + 2 * 4 + 2 * 4) * double  # position, mass, strain, all read and written but the mass; stress
+read = 2 + 2 + 1 + 4 + 4  # position, velocity, mass, stress, elastic strain
+changed = read - 1  # all but the mass
 
 
 def flops(particles_per_cell):
@@ -30,4 +29,4 @@ def flops(particles_per_cell):
 
 
 def bytes_moved():
-    return bytes_scatter + bytes_velocity + bytes_strain
+    return (read + changed) * double

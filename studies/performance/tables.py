@@ -40,7 +40,7 @@ def machine_and_scenes(benchmarks):
              f"{rate * moved / 1e9:.1f}", percent(rate * moved / bandwidth)) for label, rate in scene_points(benchmarks)]
     text = (f"## Machine and roofline\n\nOne core: memory {bandwidth / 1e9:.1f} GB/s (triad), scalar peak {scalar / 1e9:.1f}, vector peak "
             f"{vector / 1e9:.1f} Gflop/s. Bar, MUSL: {flops:.0f} flops and {moved} bytes a particle-step (counted, "
-            "`studies/performance/counts.py`); the bytes leave the caches only where the scene is larger than they.\n\n")
+            "`studies/performance/counts.py`); they leave the caches only where the scene is larger than these.\n\n")
     text += table(["bar", "M particle-steps/s", "Gflop/s", "of scalar peak", "of vector peak", "GB/s", "of memory"], rows)
     scenes = [(name.removesuffix("/real_time"), f"{median(e, 'items_per_second') / 1e6:.2f}", percent(spread(e, "items_per_second")))
               for name, e in benchmarks.items() if name.startswith(("elastic_bar", "colliding_disks", "reference_run", "large_plate"))]
