@@ -170,7 +170,7 @@ void Wave::Shared::work(std::size_t thread) {
 
 void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, Call call,
                         void* context) {
-  if (lines.size() < 2 || stages == 0) return;
+  if (stages == 0) return;
   if (!shared_) shared_ = std::make_unique<Shared>();
   Shared& shared = *shared_;
   shared.lines = lines, shared.count = lines.size() - 1, shared.stages = stages;

@@ -23,6 +23,7 @@ class Wave {
   /// threads. An exception ends the wave early and reaches the caller (of several, one does).
   template <class Body>
   void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, Body&& body) {
+    if (lines.size() < 2) return;
     if (team.size() == 1) return run_alone(lines, stages, body);
     run_together(
         team, lines, stages,
