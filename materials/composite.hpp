@@ -47,6 +47,8 @@ class Composite final : public Material {
     return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
   }
   double damage(const PointState& s) const override;
+  void stress(const std::array<const double*, 4>& elastic_strain, const double* crack_density,
+              std::size_t size, const std::array<double*, 4>& stress) const override;
 
  private:
   static constexpr bool has_yield = yielding != Yielding::none;
@@ -110,6 +112,7 @@ class Composite final : public Material {
   void store_variables(const PointState& s, const ParticleColumns& p, std::size_t i) const;
   template <bool small>
   double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
+  void store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_inelastic(const ParticleColumns& p, std::size_t i, PointState& s, double duration,
                         PointIntegrator* integrator, PointReport& point, BatchReport& report) const;

@@ -31,6 +31,21 @@ double Composite<D, Y, C>::damage([[maybe_unused]] const PointState& s) const {
 }
 
 template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::stress(const std::array<const double*, 4>& strain,
+                                [[maybe_unused]] const double* crack_density, std::size_t size,
+                                const std::array<double*, 4>& stress) const {
+  const auto [e0, e1, e2, e3] = strain;
+  const auto [s0, s1, s2, s3] = stress;
+  const double* density = D ? crack_density : e0;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < size; ++k) {
+    const SymmetricTensor e{e0[k], e1[k], e2[k], e3[k]};
+    const SymmetricTensor s = secant_without_branches(trace(e), density[k]).stress(e);
+    s0[k] = s.rr, s1[k] = s.zz, s2[k] = s.tt, s3[k] = s.rz;
+  }
+}
+
+template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, double duration,
                                  PointReport& report) const {
   if constexpr (elastic_only) {
@@ -159,7 +174,6 @@ double Composite<D, Y, C>::take_elastic_turning(const ParticleColumns& p, std::s
   const double* density = D ? p.start_variables[static_cast<std::size_t>(Variable::crack_density)] : mass;
   double *e0 = p.elastic_strain[0], *e1 = p.elastic_strain[1], *e2 = p.elastic_strain[2],
          *e3 = p.elastic_strain[3];
-  double *s0 = p.stress[0], *s1 = p.stress[1], *s2 = p.stress[2], *s3 = p.stress[3];
   const double specific_volume = 1.0 / parameters_.elastic.density;
   double energies[elastic_run];  // summed apart: a sum in the loop would have to keep its order
 #pragma GCC ivdep
@@ -167,15 +181,25 @@ double Composite<D, Y, C>::take_elastic_turning(const ParticleColumns& p, std::s
     const SymmetricTensor e = rotate({a0[i] + d0[i], a1[i] + d1[i], a2[i] + d2[i], a3[i] + d3[i]},
                                      small ? rotation_by_small(spin[i]) : rotation_by(spin[i]));
     const Moduli moduli = secant_without_branches(trace(e), density[i]);
-    const SymmetricTensor stress = moduli.stress(e);
     e0[i] = e.rr, e1[i] = e.zz, e2[i] = e.tt, e3[i] = e.rz;
-    s0[i] = stress.rr, s1[i] = stress.zz, s2[i] = stress.tt, s3[i] = stress.rz;
     energies[i - begin] = mass[i] * specific_volume * moduli.energy(e);
   }
   double stored = 0.0;
 #pragma omp simd reduction(+ : stored)
   for (std::size_t k = 0; k < end - begin; ++k) stored += energies[k];
   return stored;
+}
+
+/// Stress at the end of increments that stayed elastic.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::store_elastic_stress(const ParticleColumns& p, std::size_t begin,
+                                              std::size_t end) const {
+  std::array<const double*, 4> strain{};
+  std::array<double*, 4> to{};
+  for (std::size_t c = 0; c < 4; ++c) strain[c] = p.elastic_strain[c] + begin, to[c] = p.stress[c] + begin;
+  const double* density = nullptr;
+  if constexpr (D) density = p.start_variables[static_cast<std::size_t>(Variable::crack_density)] + begin;
+  stress(strain, density, end - begin, to);
 }
 
 template <bool D, Yielding Y, bool C>
@@ -189,6 +213,7 @@ double Composite<D, Y, C>::take_elastic(const ParticleColumns& p, std::size_t be
     for (std::size_t i = first; i < last; ++i) largest = std::max(largest, std::abs(spin[i]));
     stored += largest <= small_angle ? take_elastic_turning<true>(p, first, last)
                                      : take_elastic_turning<false>(p, first, last);
+    if (p.stress[0] != nullptr) store_elastic_stress(p, first, last);
   }
   return stored;
 }
@@ -227,11 +252,13 @@ double Composite<D, Y, C>::take_inelastic(const ParticleColumns& p, std::size_t 
   for (std::size_t k = 0; k < point.event_count; ++k) report.events.push_back({i, point.events[k]});
   const SymmetricTensor& e = s.elastic_strain;
   const Moduli moduli = secant_moduli(s);
-  const SymmetricTensor stress = moduli.stress(e);
   p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt,
   p.elastic_strain[3][i] = e.rz;
-  p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt,
-  p.stress[3][i] = stress.rz;
+  if (p.stress[0] != nullptr) {
+    const SymmetricTensor stress = moduli.stress(e);
+    p.stress[0][i] = stress.rr, p.stress[1][i] = stress.zz, p.stress[2][i] = stress.tt,
+    p.stress[3][i] = stress.rz;
+  }
   return reference * moduli.energy(e);
 }
 

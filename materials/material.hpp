@@ -85,7 +85,7 @@ struct ParticleColumns {
   std::array<const double*, 4> start_strain{};                  ///< elastic: rr, zz, tt, rz
   std::array<const double*, variable_count> start_variables{};  ///< by Variable; null: the material has none
   std::array<double*, 4> elastic_strain{};                      ///< at the end
-  std::array<double*, 4> stress{};                              ///< at the end, Pa
+  std::array<double*, 4> stress{};                              ///< at the end, Pa; null: not wanted
   std::array<double*, variable_count> variables{};              ///< at the end; null: not stored
   std::array<const double*, 4>
       strain_increment{};                  ///< in the frame that turns with the particle (corotational)
@@ -177,6 +177,10 @@ class Material {
                        TangentEntries* tangents) const = 0;
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   virtual Moduli secant_moduli(const PointState& state) const = 0;
+  /// Stress of `size` particles, Pa: Hooke's law of their elastic strain (both rr, zz, tt, rz) with these
+  /// moduli. crack_density: null where the material has no damage.
+  virtual void stress(const std::array<const double*, 4>& elastic_strain, const double* crack_density,
+                      std::size_t size, const std::array<double*, 4>& stress) const = 0;
   /// Scalar damage D of eq. 8 (0 without a damage model).
   virtual double damage(const PointState& state) const = 0;
   /// Energy stored per volume of material, J/m^3.

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "integrators/grid/step_pacing.hpp"
+#include "mpm/stress.hpp"
 
 namespace vitrum {
 
@@ -103,13 +104,12 @@ void GridSystem::try_stress(double t, bool changed) {
       const mpm::TrialColumns& committed = trial_.of(n);
       for (std::size_t i = 0; i < p.size; ++i) {
         const Rotation back = rotation_by(p.spin_increment[i]);
-        const auto turned = [&](const auto& from, auto& to) {
-          const SymmetricTensor a = rotate({from[0][i], from[1][i], from[2][i], from[3][i]}, back);
-          to[0][i] = a.rr, to[1][i] = a.zz, to[2][i] = a.tt, to[3][i] = a.rz;
-        };
-        turned(committed.elastic_strain, p.elastic_strain);
-        turned(committed.stress, p.stress);
+        const auto& from = committed.elastic_strain;
+        auto& to = p.elastic_strain;
+        const SymmetricTensor e = rotate({from[0][i], from[1][i], from[2][i], from[3][i]}, back);
+        to[0][i] = e.rr, to[1][i] = e.zz, to[2][i] = e.tt, to[3][i] = e.rz;
       }
+      p.tried_stress = mpm::stress_of(system_.bodies[n]);
     }
   }
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -117,8 +117,9 @@ void GridSystem::try_stress(double t, bool changed) {
     const Deformation& d = deformations_[n];
     for (std::size_t i = 0; i < p.size; ++i) {
       const FiniteStrain f = d.at(i);
-      const auto P = f.nominal({p.stress[0][i], p.stress[1][i], p.stress[2][i], p.stress[3][i]});
-      p.stress[0][i] = P[0], p.stress[3][i] = P[1], p.stress_zr[i] = P[2], p.stress[1][i] = P[3];
+      auto& s = p.tried_stress;
+      const auto P = f.nominal({s[0][i], s[1][i], s[2][i], s[3][i]});
+      s[0][i] = P[0], s[3][i] = P[1], p.tried_stress_zr[i] = P[2], s[1][i] = P[3];
     }
   }
 }

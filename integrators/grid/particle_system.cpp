@@ -6,6 +6,7 @@
 
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
+#include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
 
 namespace vitrum {
@@ -160,7 +161,7 @@ void ParticleSystem::try_stress(double t, bool changed) {
   } else {
     for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
       system_.bodies[n].particles.elastic_strain = trial_.of(n).elastic_strain;
-      system_.bodies[n].particles.stress = trial_.of(n).stress;
+      system_.bodies[n].particles.tried_stress = mpm::stress_of(system_.bodies[n]);
     }
   }
 }
@@ -172,7 +173,7 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   try_stress(t, set_increments(y));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
     for (const std::size_t i : mirrored_[n]) {
-      double& shear = system_.bodies[n].particles.stress[3][i];
+      double& shear = system_.bodies[n].particles.tried_stress[3][i];
       shear = -shear;
     }
   mpm::scatter(system_, mpm::Scatter::momentum_and_force);

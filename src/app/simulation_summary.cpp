@@ -35,7 +35,8 @@ bool finite_state(const System& system) {
     for (std::size_t i = 0; i < body.particles.size; ++i) {
       const Particles& p = body.particles;
       const double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i] +
-                         p.stress[0][i] + p.stress[1][i] + p.stress[2][i] + p.stress[3][i];
+                         p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i] +
+                         p.elastic_strain[3][i];
       if (!std::isfinite(sum)) return false;
     }
   return true;

@@ -9,7 +9,7 @@ inline void reflect_at_axis(Particles& p, std::size_t i) {
   const auto flip = [i](std::vector<double>& column) {
     if (!column.empty()) column[i] = -column[i];
   };
-  flip(p.velocity[0]), flip(p.elastic_strain[3]), flip(p.stress[3]);
+  flip(p.velocity[0]), flip(p.elastic_strain[3]);
   flip(p.strain_increment[3]), flip(p.spin_increment);
   flip(p.variables[static_cast<std::size_t>(Variable::normal_r)]);
   flip(p.variables[static_cast<std::size_t>(Variable::opening_t)]);

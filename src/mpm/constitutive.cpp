@@ -24,7 +24,7 @@ ParticleColumns columns_of(Particles& p, const Committed& committed) {
   point(c.start_strain, committed.elastic_strain);
   point(c.start_variables, std::as_const(p.variables));
   point(c.elastic_strain, p.elastic_strain);
-  point(c.stress, p.stress);
+  point(c.stress, p.tried_stress);
   for (std::size_t k = 0; k < 4; ++k) c.strain_increment[k] = p.strain_increment[k].data();
   c.spin_increment = p.spin_increment.data();
   c.mass = p.mass.data();

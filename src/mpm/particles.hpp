@@ -17,7 +17,6 @@ struct Particles {
   std::array<std::vector<double>, 2> velocity;  ///< m/s
   std::vector<double> mass;  ///< kg per radian (axisymmetric) or per metre (plane strain); constant
   std::array<std::vector<double>, 4> elastic_strain;  ///< (rr, zz, tt, rz)
-  std::array<std::vector<double>, 4> stress;          ///< Pa, (rr, zz, tt, rz)
   std::array<std::vector<double>, variable_count>
       variables;                        ///< by Variable; empty where the material has no such variable
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
@@ -25,9 +24,12 @@ struct Particles {
   // Scratch of one step, never stored: strain increment in the frame that turns with the particle, and turn.
   std::array<std::vector<double>, 4> strain_increment;
   std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
-  /// Not empty: forces act on a configuration of the past, and the stress is the nominal one, whose shears
-  /// differ; stress[3] is then P_rz and this P_zr, Pa.
-  std::vector<double> stress_zr;
+  /// Stress follows from elastic strain and damage (Material::stress). Not empty: an integrator tries a state
+  /// (mpm/trial.hpp), whose stress is this instead, Pa, (rr, zz, tt, rz).
+  std::array<std::vector<double>, 4> tried_stress;
+  /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
+  /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
+  std::vector<double> tried_stress_zr;
 };
 
 /// What is known of a body that coasts (mpm/coasting.hpp).

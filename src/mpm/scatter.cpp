@@ -21,16 +21,46 @@ struct Contribution {
   Pack<width> share, r, z;
 };
 
-/// The columns that internal forces are made of.
-struct ForceColumns {
-  ColumnReader rr, zz, tt, rz, zr;
+/// The stress of a chunk that internal forces are made of: that of a state that is tried, or the law's.
+class ChunkStress {
+ public:
+  ChunkStress(const Chunk& chunk, const Body& body) {
+    const Particles& p = body.particles;
+    const auto& tried = p.tried_stress;
+    if (tried[0].empty()) {
+      follow(chunk, p, *body.material);
+      return;
+    }
+    for (std::size_t c = 0; c < 4; ++c) read(chunk, tried[c], c);
+    read(chunk, p.tried_stress_zr.empty() ? tried[3] : p.tried_stress_zr, 4);
+  }
+  ChunkStress(const ChunkStress&) = delete;
+  ChunkStress& operator=(const ChunkStress&) = delete;
 
-  ForceColumns(const Chunk& chunk, const Particles& p)
-      : rr(chunk, p.stress[0]),
-        zz(chunk, p.stress[1]),
-        tt(chunk, p.stress[2]),
-        rz(chunk, p.stress[3]),
-        zr(chunk, p.stress_zr.empty() ? p.stress[3] : p.stress_zr) {}
+  const double* rr() const { return columns_[0]; }
+  const double* zz() const { return columns_[1]; }
+  const double* tt() const { return columns_[2]; }
+  const double* rz() const { return columns_[3]; }
+  const double* zr() const { return columns_[4]; }
+
+ private:
+  void follow(const Chunk& chunk, const Particles& p, const Material& material) {
+    const auto& e = p.elastic_strain;
+    const auto& density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
+    const ColumnReader e0(chunk, e[0]), e1(chunk, e[1]), e2(chunk, e[2]), e3(chunk, e[3]),
+        damage(chunk, density.empty() ? e[0] : density);
+    material.stress({e0.data(), e1.data(), e2.data(), e3.data()}, density.empty() ? nullptr : damage.data(),
+                    chunk.size(), {values_[0], values_[1], values_[2], values_[3]});
+    for (std::size_t c = 0; c < 5; ++c) columns_[c] = values_[std::min<std::size_t>(c, 3)];
+  }
+  void read(const Chunk& chunk, const std::vector<double>& column, std::size_t c) {
+    columns_[c] = chunk.contiguous() ? column.data() + chunk.place(0) : values_[c];
+    if (chunk.contiguous()) return;
+    for (std::size_t k = 0; k < chunk.size(); ++k) values_[c][k] = column[chunk.place(k)];
+  }
+
+  const double* columns_[5];
+  double values_[5][Chunk::capacity];
 };
 
 template <bool axisymmetric, class P>
@@ -45,9 +75,8 @@ class Contributions {
     const std::size_t size = chunk.size();
     const double* m = mass.data();
     if constexpr (P::force) {
-      const ForceColumns f(chunk, p);
-      const double *rr = f.rr.data(), *zz = f.zz.data(), *tt = f.tt.data(), *rz = f.rz.data(),
-                   *zr = f.zr.data(), *r = radius.data();
+      const ChunkStress s(chunk, body);
+      const double *rr = s.rr(), *zz = s.zz(), *tt = s.tt(), *rz = s.rz(), *zr = s.zr(), *r = radius.data();
       constexpr std::size_t first = P::momentum ? 2 : 0, width = P::width;
 #pragma GCC ivdep
       for (std::size_t k = 0; k < size; ++k) {

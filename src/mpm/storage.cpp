@@ -22,7 +22,7 @@ void for_each_column(Columns& p, Call&& call) {
   const auto all = [&](auto& columns) {
     for (auto& column : columns) call(column);
   };
-  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.stress), all(p.variables);
+  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables);
   call(p.mass), call(p.identity);
 }
 

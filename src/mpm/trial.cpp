@@ -14,7 +14,8 @@ void swap_columns(std::array<std::vector<double>, n>& one, std::array<std::vecto
 Trial::Trial(const System& system, Moves moves) : columns_(system.bodies.size()) {
   for (std::size_t n = 0; n < columns_.size(); ++n) {
     const Particles& p = system.bodies[n].particles;
-    columns_[n].elastic_strain = p.elastic_strain, columns_[n].stress = p.stress;
+    columns_[n].elastic_strain = p.elastic_strain;
+    for (auto& column : columns_[n].stress) column.assign(p.size, 0.0);
     if (moves == Moves::particles)
       columns_[n].position = p.position, columns_[n].velocity = p.velocity;
     else
@@ -28,8 +29,8 @@ void Trial::exchange(System& system) {
     swap_columns(columns_[n].position, p.position);
     swap_columns(columns_[n].velocity, p.velocity);
     swap_columns(columns_[n].elastic_strain, p.elastic_strain);
-    swap_columns(columns_[n].stress, p.stress);
-    columns_[n].stress_zr.swap(p.stress_zr);
+    columns_[n].stress.swap(p.tried_stress);
+    columns_[n].stress_zr.swap(p.tried_stress_zr);
   }
 }
 

@@ -21,10 +21,8 @@ auto stored_columns(ParticlesType& particles) {
   columns.emplace_back("velocity_r", &particles.velocity[0]);
   columns.emplace_back("velocity_z", &particles.velocity[1]);
   columns.emplace_back("mass", &particles.mass);
-  for (std::size_t c = 0; c < 4; ++c) {
+  for (std::size_t c = 0; c < 4; ++c)
     columns.emplace_back(std::string("elastic_strain_") + components[c], &particles.elastic_strain[c]);
-    columns.emplace_back(std::string("stress_") + components[c], &particles.stress[c]);
-  }
   return columns;
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "mpm/stress.hpp"
 #include "scene/input_error.hpp"
 
 namespace vitrum::output {
@@ -32,7 +33,6 @@ PointState point_of(const Particles& particles, std::size_t index) {
     return SymmetricTensor{c[0][index], c[1][index], c[2][index], c[3][index]};
   };
   state.elastic_strain = tensor(particles.elastic_strain);
-  state.stress = tensor(particles.stress);
   for (std::size_t v = 0; v < variable_count; ++v)
     if (!particles.variables[v].empty()) state.*variable_members[v] = particles.variables[v][index];
   return state;
@@ -44,7 +44,7 @@ Field gather(std::span<const Body> bodies, const Columns& columns_of) {
   Field field;
   field.components = components;
   for (const Body& body : bodies) {
-    const std::array<std::vector<double>, components>& columns = columns_of(body.particles);
+    const std::array<std::vector<double>, components>& columns = columns_of(body);
     for (const std::size_t index : identity_order(body.particles))
       for (const std::vector<double>& column : columns) field.values.push_back(column[index]);
   }
@@ -93,19 +93,18 @@ Field field_of(std::span<const Body> bodies, const std::string& name, Geometry g
   const std::string tensor = axisymmetric ? "(rr, zz, tt, rz)" : "(xx, yy, zz, xy)";
   if (name == "position")
     return named(gather<2>(
-                     bodies, [](const Particles& p) -> auto& { return p.position; }),
+                     bodies, [](const Body& b) -> auto& { return b.particles.position; }),
                  name, "m", "position " + vector);
   if (name == "velocity")
     return named(gather<2>(
-                     bodies, [](const Particles& p) -> auto& { return p.velocity; }),
+                     bodies, [](const Body& b) -> auto& { return b.particles.velocity; }),
                  name, "m/s", "velocity " + vector);
   if (name == "stress")
-    return named(gather<4>(
-                     bodies, [](const Particles& p) -> auto& { return p.stress; }),
-                 name, "Pa", "Cauchy stress " + tensor + ", tension positive");
+    return named(gather<4>(bodies, mpm::stress_of), name, "Pa",
+                 "Cauchy stress " + tensor + ", tension positive");
   if (name == "elastic_strain")
     return named(gather<4>(
-                     bodies, [](const Particles& p) -> auto& { return p.elastic_strain; }),
+                     bodies, [](const Body& b) -> auto& { return b.particles.elastic_strain; }),
                  name, "1", "elastic strain " + tensor + ", tensor shear");
   if (name == "damage")
     return named(gather_scalar(

@@ -128,7 +128,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 
 ## `checkpoint.h5`
 
-The first 512 bytes hold the line `vitrum checkpoint 2 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
+The first 512 bytes hold the line `vitrum checkpoint 3 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
 `step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/numbers` and `/texts` with
 the state of everything else. It is made for `--resume` of the same version, not for analysis.
 )";

@@ -32,7 +32,7 @@ void allocate(Particles& p, const Material& material) {
   const auto sized = [&](auto& columns) {
     for (auto& column : columns) column.assign(p.size, 0.0);
   };
-  sized(p.position), sized(p.velocity), sized(p.elastic_strain), sized(p.stress), sized(p.strain_increment);
+  sized(p.position), sized(p.velocity), sized(p.elastic_strain), sized(p.strain_increment);
   p.mass.assign(p.size, 0.0);
   p.spin_increment.assign(p.size, 0.0);
   p.identity.assign(p.size, 0);
@@ -94,9 +94,8 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
       p.velocity[k][i] = definition.velocity[k] + G[k][0] * x[0] + G[k][1] * x[1];
     }
     p.mass[i] = density * seeds[i].area * (axisymmetric ? x[0] : 1.0);
-    const std::array<double, 4> strains{e.rr, e.zz, e.tt, e.rz},
-        stresses{stress.rr, stress.zz, stress.tt, stress.rz};
-    for (std::size_t k = 0; k < 4; ++k) p.elastic_strain[k][i] = strains[k], p.stress[k][i] = stresses[k];
+    const std::array<double, 4> strains{e.rr, e.zz, e.tt, e.rz};
+    for (std::size_t k = 0; k < 4; ++k) p.elastic_strain[k][i] = strains[k];
     p.identity[i] = static_cast<std::uint32_t>(i);
   }
   return body;

@@ -99,7 +99,6 @@ class Points {
       columns.start_strain[k] = column(start_[k], start[k]);
       columns.strain_increment[k] = column(strain_[k], strain[k]);
       columns.elastic_strain[k] = column(end_[k], 0.0);
-      columns.stress[k] = column(stress_[k], 0.0);
     }
     for (const VariableInfo& v : material->variables()) {
       const auto k = static_cast<std::size_t>(v.variable);
@@ -113,7 +112,7 @@ class Points {
   ParticleColumns columns;
 
  private:
-  std::vector<double> start_[4], strain_[4], end_[4], stress_[4], mass_, spin_;
+  std::vector<double> start_[4], strain_[4], end_[4], mass_, spin_;
   std::vector<double> start_variables_[variable_count], end_variables_[variable_count];
 };
 

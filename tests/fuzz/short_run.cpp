@@ -36,7 +36,7 @@ bool is_finite(const System& system) {
     for (std::size_t i = 0; i < body.particles.size; ++i) {
       const Particles& p = body.particles;
       double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i];
-      for (const auto& column : p.stress) sum += column[i];
+      for (const auto& column : p.elastic_strain) sum += column[i];
       if (!std::isfinite(sum)) return false;
     }
   return true;

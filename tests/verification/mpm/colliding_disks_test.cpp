@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "catch.hpp"
+#include "mpm/stress.hpp"
 #include "support/mpm_run.hpp"
 
 using namespace vitrum;
@@ -26,7 +27,7 @@ MpmScene disks(const std::string& shape, const std::string& scheme, double coura
 double largest_stress(const System& system) {
   double largest = 0.0;
   for (const Body& b : system.bodies)
-    for (const std::vector<double>& component : b.particles.stress)
+    for (const std::vector<double>& component : mpm::stress_of(b))
       for (const double s : component) largest = std::max(largest, std::abs(s));
   return largest;
 }
