@@ -178,9 +178,9 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const bool at_axis = axisymmetric && kind != ShapeKind::linear && block.column == 0;
-  const NodePacks<P> nodes(grid, block, at_axis);
+  const NodePacks<kind, P> nodes(grid, block, at_axis);
   Pack<2>* momenta = grid.tile_data(tile).template packs<2>();
-  if constexpr (P::rescatter) std::fill(momenta, momenta + tile_nodes, Pack<2>{});
+  if constexpr (P::rescatter) clear_tile<kind>(momenta);
 
   double kinetic = 0.0;
   const double cell = grid.cell(), per_cell = 1.0 / cell;
@@ -218,12 +218,14 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
 }
 
 /// Adds up what the tiles hold for the momenta of a block's nodes: their velocities.
+template <ShapeKind kind>
 void project_momenta(const Pass& pass, std::size_t block) {
   Grid& grid = pass.system->grid;
   Pack<2> sums[block_nodes]{};
-  for_shares(grid, grid.blocks()[block], [&](const TileData& tile, std::size_t entry, std::size_t node) {
-    sums[node] += tile.packs<2>()[entry];
-  });
+  for_shares<kind>(grid, grid.blocks()[block],
+                   [&](const TileData& tile, std::size_t entry, std::size_t node) {
+                     sums[node] += tile.packs<2>()[entry];
+                   });
   alignas(64) double p0[block_nodes], p1[block_nodes];
   for (int node = 0; node < block_nodes; ++node) p0[node] = sums[node][0], p1[node] = sums[node][1];
   project_block(grid, block, {p0, p1});
@@ -245,6 +247,7 @@ Pass pass_of(System& system, double duration) {
           *own.system, tile, own.duration, static_cast<const Target*>(own.targets), own.stress);
       if constexpr (P::velocity) (*own.parts)[tile] = kinetic;
     };
+    if constexpr (P::rescatter) pass.block = project_momenta<kind>;
   });
   if constexpr (P::velocity) {
     static thread_local std::vector<double> kinetic_of_tile;  // of the calling thread; workers write to it
@@ -252,7 +255,6 @@ Pass pass_of(System& system, double duration) {
     pass.parts = &kinetic_of_tile;
     pass.finish = book_kinetic_energy;
   }
-  if constexpr (P::rescatter) pass.block = project_momenta;
   return pass;
 }
 

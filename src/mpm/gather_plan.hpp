@@ -44,22 +44,24 @@ struct GradientPlan {
 };
 
 /// The nodes of a tile as one plan sees them.
-template <class P>
+template <ShapeKind kind, class P>
 class NodePacks {
  public:
   NodePacks(const Grid& grid, const Block& block, bool at_axis) {
-    const double* v[] = {grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
-    const double* w[] = {grid.field(Field::new_velocity_0), grid.field(Field::new_velocity_1)};
-    double* to = reinterpret_cast<double*>(nodes_);
-    for (std::size_t c = 0; c < 2; ++c) {
-      load_tile(
-          block, [&](std::size_t n) { return P::first == First::velocity ? v[c][n] : w[c][n] - v[c][n]; },
-          [&](std::size_t entry, double value) { to[P::width * entry + c] = value; });
-      if constexpr (P::width == 4)
-        load_tile(
-            block, [&](std::size_t n) { return w[c][n]; },
-            [&](std::size_t entry, double value) { to[P::width * entry + 2 + c] = value; });
-    }
+    const double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1),
+                 *w0 = grid.field(Field::new_velocity_0), *w1 = grid.field(Field::new_velocity_1);
+    load_tile<kind>(
+        block,
+        [&](std::size_t n) {
+          Pack<2> first{v0[n], v1[n]};
+          const Pack<2> last{w0[n], w1[n]};
+          if constexpr (P::first == First::change) first = last - first;
+          if constexpr (P::width == 4)
+            return Pack<4>{first[0], first[1], last[0], last[1]};
+          else
+            return first;
+        },
+        nodes_);
     if (at_axis) mirror_axis(nodes_, axis_parity<P::width>);
   }
   const Pack<P::width>& operator[](std::size_t entry) const { return nodes_[entry]; }
@@ -73,8 +75,8 @@ template <class P>
 class Interpolated {
  public:
   Interpolated() {}  // filled, not cleared
-  template <class Stencils>
-  void gather(const Stencils& at, std::size_t size, const NodePacks<P>& nodes) {
+  template <class Stencils, class Nodes>
+  void gather(const Stencils& at, std::size_t size, const Nodes& nodes) {
     for (std::size_t k = 0; k < size; ++k) {
       Pack<P::width> value{}, r{}, z{};
       for (std::size_t b = 0; b < at.count; ++b)

@@ -116,8 +116,8 @@ void scatter_tile(System& system, std::size_t tile) {
   TileData& data = grid.tile_data(tile);
   Pack<P::width>* vectors = data.template packs<P::width>();
   double* masses = data.mass;
-  std::fill(vectors, vectors + tile_nodes, Pack<P::width>{});
-  if constexpr (P::momentum) std::fill(masses, masses + tile_nodes, 0.0);
+  clear_tile<kind>(vectors);
+  if constexpr (P::momentum) clear_tile<kind>(masses);
 
   const double per_cell = 1.0 / grid.cell();
   Contributions<axisymmetric, P> gives;
@@ -153,14 +153,15 @@ void scatter_tile(System& system, std::size_t tile) {
 }
 
 /// Adds up what the tiles hold for the nodes of a block: their masses, and their vectors by component.
-template <class P>
+template <ShapeKind kind, class P>
 void sum_block(Grid& grid, std::size_t index, const std::array<double*, P::width>& to) {
   Pack<P::width> vectors[block_nodes]{};
   double mass[block_nodes]{};
-  for_shares(grid, grid.blocks()[index], [&](const TileData& tile, std::size_t entry, std::size_t node) {
-    vectors[node] += tile.template packs<P::width>()[entry];
-    if constexpr (P::momentum) mass[node] += tile.mass[entry];
-  });
+  for_shares<kind>(grid, grid.blocks()[index],
+                   [&](const TileData& tile, std::size_t entry, std::size_t node) {
+                     vectors[node] += tile.template packs<P::width>()[entry];
+                     if constexpr (P::momentum) mass[node] += tile.mass[entry];
+                   });
   if constexpr (P::momentum)
     std::copy(mass, mass + block_nodes, grid.field(Field::mass) + index * block_nodes);
   for (std::size_t c = 0; c < P::width; ++c)
@@ -168,24 +169,24 @@ void sum_block(Grid& grid, std::size_t index, const std::array<double*, P::width
 }
 
 /// The sums of a block, to be kept.
-template <class P>
+template <ShapeKind kind, class P>
 void store_sums(const Pass& pass, std::size_t block) {
   constexpr auto first = static_cast<std::size_t>(P::momentum ? Field::momentum_0 : Field::force_0);
   std::array<double*, P::width> to{};
   for (std::size_t c = 0; c < P::width; ++c)
     to[c] = pass.system->grid.field(static_cast<Field>(first + c)) + block * block_nodes;
-  sum_block<P>(pass.system->grid, block, to);
+  sum_block<kind, P>(pass.system->grid, block, to);
 }
 
 /// The sums of a block are made velocities at once, and new velocities if it has forces.
-template <class P>
+template <ShapeKind kind, class P>
 void move_block(const Pass& pass, std::size_t block) {
   System& system = *pass.system;
   Grid& grid = system.grid;
   alignas(64) double sums[P::width][block_nodes];
   std::array<double*, P::width> to{};
   for (std::size_t c = 0; c < P::width; ++c) to[c] = sums[c];
-  sum_block<P>(grid, block, to);
+  sum_block<kind, P>(grid, block, to);
   if constexpr (P::momentum) project_block(grid, block, {sums[0], sums[1]});
   if constexpr (P::force) {
     const BlockVector force{sums[P::width - 2], sums[P::width - 1]};
@@ -210,9 +211,9 @@ Pass pass_of(System& system, Nodes until) {
     pass.tile = [](const Pass& own, std::size_t tile) {
       scatter_tile<kind, axisymmetric, P>(*own.system, tile);
     };
+    pass.block = until == Nodes::sums ? store_sums<kind, P> : move_block<kind, P>;
   });
   if (until == Nodes::sums) system.grid.keep_sums();
-  pass.block = until == Nodes::sums ? store_sums<P> : move_block<P>;
   return pass;
 }
 

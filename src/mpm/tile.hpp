@@ -7,14 +7,29 @@
 /// it without looking up nodes. Node (i, j) of the block is tile entry (j + 1) tile_columns + i + 1.
 namespace vitrum::mpm {
 
-/// Where a block at offset d (-1, 0, 1) from another one overlaps the other's tile: `count` nodes from `node`
-/// in the block, from `entry` in the tile. Compile-time, so that rows are copied without a call.
-template <int d>
+/// The columns (or rows) of nodes that particles of a block's cells can touch before its first and after its
+/// last.
+template <ShapeKind kind>
+struct Reach {
+  static constexpr int before = kind == ShapeKind::linear ? 0 : 1, after = kind == ShapeKind::linear ? 1 : 2;
+};
+
+/// Where a block at offset d (-1, 0, 1) from another one overlaps what of the other's tile can be touched:
+/// `count` nodes from `node` in the block, from `entry` in the tile. Compile-time, so that rows are copied
+/// without a call.
+template <ShapeKind kind, int d>
 struct Overlap {
   static constexpr int node = d < 0 ? block_side - 1 : 0;
   static constexpr int entry = d < 0 ? 0 : d == 0 ? 1 : block_side + 1;
-  static constexpr int count = d < 0 ? 1 : d == 0 ? block_side : 2;
+  static constexpr int count = d < 0 ? Reach<kind>::before : d == 0 ? block_side : Reach<kind>::after;
 };
+
+/// Clears what of a tile can be touched.
+template <ShapeKind kind, class Value>
+inline void clear_tile(Value* tile) {
+  constexpr int first = 1 - Reach<kind>::before, last = 1 + block_side + Reach<kind>::after;
+  std::fill(tile + first * tile_columns, tile + last * tile_columns, Value{});
+}
 
 /// Calls f.operator()<di, dj>() for the 3 x 3 neighbourhood, in a fixed order.
 template <class F>
@@ -28,41 +43,42 @@ inline std::int32_t neighbour(const Block& b, int di, int dj) {
   return b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
 }
 
-/// Fills a tile of block `b`: calls to(entry, from(node)), or to(entry, 0.0) where there is no node.
-template <class From, class To>
-inline void load_tile(const Block& b, From&& from, To&& to) {
+/// Fills what of the tile of block `b` can be touched with from(node), or zero where there is no node.
+template <ShapeKind kind, class Value, class From>
+inline void load_tile(const Block& b, From&& from, Value* tile) {
   for_neighbourhood([&]<int di, int dj>() {
-    using I = Overlap<di>;
-    using J = Overlap<dj>;
-    const std::int32_t n = neighbour(b, di, dj);
-    const std::size_t node =
-        static_cast<std::size_t>(n < 0 ? 0 : n) * block_nodes + J::node * block_side + I::node;
-    for (std::size_t row = 0; row < J::count; ++row)
-      for (std::size_t column = 0; column < I::count; ++column) {
-        const std::size_t entry = (J::entry + row) * tile_columns + I::entry + column;
-        if (n < 0)
-          to(entry, 0.0);
-        else
-          to(entry, from(node + row * block_side + column));
+    using I = Overlap<kind, di>;
+    using J = Overlap<kind, dj>;
+    if constexpr (I::count != 0 && J::count != 0) {
+      const std::int32_t n = neighbour(b, di, dj);
+      const std::size_t node =
+          static_cast<std::size_t>(n < 0 ? 0 : n) * block_nodes + J::node * block_side + I::node;
+      for (std::size_t row = 0; row < J::count; ++row) {
+        Value* to = tile + (J::entry + row) * tile_columns + I::entry;
+        for (std::size_t column = 0; column < I::count; ++column)
+          to[column] = n < 0 ? Value{} : from(node + row * block_side + column);
       }
+    }
   });
 }
 
-/// Calls add(tile, entry, node) for every node (0 .. block_nodes - 1) of block `b` and every tile that holds
-/// a share of it, in a fixed order.
-template <class Add>
+/// Calls add(tile, entry, node) for every node (0 .. block_nodes - 1) of block `b` and every tile whose
+/// particles can touch it, in a fixed order.
+template <ShapeKind kind, class Add>
 inline void for_shares(Grid& grid, const Block& b, Add&& add) {
   for_neighbourhood([&]<int di, int dj>() {
-    using I = Overlap<-di>;  // seen from the neighbour, this block lies at (-di, -dj)
-    using J = Overlap<-dj>;
-    const std::int32_t n = neighbour(b, di, dj);
-    if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) return;
-    const TileData& tile =
-        grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile));
-    for (std::size_t row = 0; row < J::count; ++row)
-      for (std::size_t column = 0; column < I::count; ++column)
-        add(tile, (J::entry + row) * tile_columns + I::entry + column,
-            (J::node + row) * block_side + I::node + column);
+    using I = Overlap<kind, -di>;  // seen from the neighbour, this block lies at (-di, -dj)
+    using J = Overlap<kind, -dj>;
+    if constexpr (I::count != 0 && J::count != 0) {
+      const std::int32_t n = neighbour(b, di, dj);
+      if (n < 0 || grid.blocks()[static_cast<std::size_t>(n)].tile < 0) return;
+      const TileData& tile =
+          grid.tile_data(static_cast<std::size_t>(grid.blocks()[static_cast<std::size_t>(n)].tile));
+      for (std::size_t row = 0; row < J::count; ++row)
+        for (std::size_t column = 0; column < I::count; ++column)
+          add(tile, (J::entry + row) * tile_columns + I::entry + column,
+              (J::node + row) * block_side + I::node + column);
+    }
   });
 }
 
