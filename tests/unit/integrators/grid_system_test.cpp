@@ -149,7 +149,7 @@ TEST_CASE("Right-hand sides leave the committed state alone, to the bit", "[inte
 
 TEST_CASE("The factors of a wide body have the entries of minimum degree on a symmetric pattern",
           "[integrators]") {
-  // 64 x 64 cells: minimum degree leaves some 80 entries a row and factor. Rows exchanged before ordering
+  // 64 x 64 cells: minimum degree leaves 53 entries a row and factor. Rows exchanged before ordering
   // (KLU's search for a block-triangular form) make it several times as many.
   MpmScene scene;
   scene.geometry = "plane-strain";

@@ -2,7 +2,6 @@
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
-#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -16,7 +15,7 @@
 using vitrum::sundials::Context;
 using vitrum::sundials::Owned;
 
-// The build links against SUNDIALS and KLU, and a context of ours carries their objects.
+// The build links against SUNDIALS, and a context of ours carries their objects.
 
 namespace {
 
@@ -68,28 +67,4 @@ TEST_CASE("ARKODE integrates a decay in a context of ours", "[integrators][sundi
   CHECK(NV_Ith_S(y.get(), 0) == Approx(std::exp(-2.0)).epsilon(1e-6));
   ARKStepFree(&memory);
   CHECK(memory == nullptr);
-}
-
-TEST_CASE("KLU solves a small sparse system through SUNDIALS", "[integrators][sundials]") {
-  const Context context;
-  constexpr sunindextype size = 3;
-  // [4 1 0; 1 3 0; 0 2 5], by columns.
-  const Owned<SUNMatrix, SUNMatDestroy> matrix(SUNSparseMatrix(size, size, 6, CSC_MAT, context.get()));
-  REQUIRE(matrix);
-  const sunindextype starts[] = {0, 2, 5, 6}, rows[] = {0, 1, 0, 1, 2, 2};
-  const double entries[] = {4.0, 1.0, 1.0, 3.0, 2.0, 5.0};
-  std::copy(std::begin(starts), std::end(starts), SM_INDEXPTRS_S(matrix.get()));
-  std::copy(std::begin(rows), std::end(rows), SM_INDEXVALS_S(matrix.get()));
-  std::copy(std::begin(entries), std::end(entries), SM_DATA_S(matrix.get()));
-  const Vector x(N_VNew_Serial(size, context.get())), b(N_VNew_Serial(size, context.get()));
-  for (sunindextype i = 0; i < size; ++i) NV_Ith_S(x.get(), i) = static_cast<double>(i + 1);
-  REQUIRE(SUNMatMatvec(matrix.get(), x.get(), b.get()) == 0);
-  N_VConst(0.0, x.get());
-  const Owned<SUNLinearSolver, SUNLinSolFree> solver(SUNLinSol_KLU(x.get(), matrix.get(), context.get()));
-  REQUIRE(solver);
-  REQUIRE(SUNLinSolInitialize(solver.get()) == 0);
-  REQUIRE(SUNLinSolSetup(solver.get(), matrix.get()) == 0);
-  REQUIRE(SUNLinSolSolve(solver.get(), matrix.get(), x.get(), b.get(), 0.0) == 0);
-  for (sunindextype i = 0; i < size; ++i)
-    CHECK(NV_Ith_S(x.get(), i) == Approx(static_cast<double>(i + 1)).epsilon(1e-14));
 }
