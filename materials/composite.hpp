@@ -84,8 +84,9 @@ class Composite final : public Material {
     Moduli m = elastic_;
     if constexpr (has_damage) {
       const Moduli damaged = damage_.moduli(crack_density / crack_density_limit);
-      m.shear = crack_density > 0.0 ? damaged.shear : m.shear;
-      m.bulk = crack_density > 0.0 && strain_trace > 0.0 ? damaged.bulk : m.bulk;
+      const bool is_damaged = !(crack_density <= 0.0);  // what is not a number shows
+      m.shear = is_damaged ? damaged.shear : m.shear;
+      m.bulk = is_damaged && strain_trace > 0.0 ? damaged.bulk : m.bulk;
     }
     return m;
   }

@@ -24,7 +24,12 @@ bool Grid::some_left() const {
 }
 
 void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
-  find_movers(bodies, team);
+  try {
+    find_movers(bodies, team);
+  } catch (const ComputationError&) {
+    rebuild(bodies);  // throws for the same particle whichever thread came first
+    throw;
+  }
   std::vector<std::int32_t> rank(tile_block_.size());  // old tile -> new tile; -1: holds no particle any more
   std::iota(rank.begin(), rank.end(), 0);
   if (!blocks_serve()) {

@@ -56,7 +56,7 @@ class alignas(64) ReadyPieces {
   std::atomic<bool> some_{false};
 };
 
-/// The lines whose first stage one thread begins with.
+/// The pieces whose first stage one thread begins with.
 struct alignas(64) Share {
   std::atomic<std::size_t> next{0};
   std::size_t end = 0;
@@ -81,7 +81,6 @@ struct Wave::Shared {
   std::optional<Piece> next(std::size_t thread);
   std::optional<Piece> next_of_share(std::size_t thread);
   void finish(const Piece& piece, std::size_t thread);
-  std::size_t size(std::size_t line) const { return lines[line + 1] - lines[line]; }
 };
 
 Wave::Wave() = default;
@@ -101,7 +100,7 @@ void Wave::Shared::prepare(std::size_t threads) {
       awaited[stage * count + line].store(static_cast<std::uint32_t>(lines[last + 1] - lines[first]),
                                           std::memory_order_relaxed);
     }
-  if (ready.size() != threads) {
+  if (ready.size() != threads || shares.size() != threads) {
     ready = std::vector<ReadyPieces>(threads);
     shares = std::vector<Share>(threads);
   }
@@ -160,11 +159,11 @@ void Wave::Shared::work(std::size_t thread) {
     looks = 0;
     try {
       call(context, piece->stage, piece->piece);
+      finish(*piece, thread);  // which may want memory
     } catch (...) {
       stopped = true;
       throw;
     }
-    finish(*piece, thread);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// Columns of a particle that every material has, its place in the grid's lists, and what an output, a
 /// checkpoint or the analysis of fragments holds besides while it is made.
-constexpr double of_particle = 8.0 * 18.0 + 12.0 + 140.0;
+constexpr double of_particle = 8.0 * 14.0 + 12.0 + 140.0;
 /// The same for each of the material's variables.
 constexpr double of_variable = 8.0 + 8.0;
 /// Nodal fields, the tile and the bookkeeping of a block of nodes.
@@ -25,8 +25,9 @@ constexpr double of_block =
 constexpr double of_unknowns = 9.0 * 8.0, vectors = 11.0, vectors_of_stage = 1.5;
 /// arkode-implicit: vectors over nodes and particles, tangents, and the matrix.
 constexpr double of_implicit_cell = 3600.0;
-/// Fill of the factors: grows with a body's width in cells, less than in proportion (minimum degree).
-constexpr double of_factor = 600.0, fill_exponent = 0.6, wider_stencil = 2.6;
+/// The factors and their copy (KluFactors): entries grow with a body's width in cells, less than in proportion
+/// (minimum degree).
+constexpr double of_factor = 600.0, fill_exponent = 0.45, wider_stencil = 4.6;
 
 double blocks(const ShapeMeasures& m, double cell) {
   const double side = mpm::block_side * cell;

@@ -7,11 +7,13 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "app/command_line.hpp"
 #include "failing_new.hpp"
+#include "mpm/wave.hpp"
 #include "output/result_reader.hpp"
 #include "tests/catch.hpp"
 #include "unit/output/temporary_directory.hpp"
@@ -108,4 +110,25 @@ TEST_CASE("One allocation that fails ends a run with status 3, or does no harm",
 
 TEST_CASE("Memory that has run out for good ends a run with status 3", "[memory]") {
   for (const auto& method : methods) CHECK(sweep(method, Failing::from_then_on) > 50);
+}
+
+TEST_CASE("Memory that runs out in a wave ends it, on any thread", "[memory]") {
+  std::vector<std::size_t> lines;
+  for (std::size_t line = 0; line <= 40; ++line) lines.push_back(2 * line);
+  const int nowhere = open("/dev/null", O_WRONLY);
+  for (const int threads : {2, 3}) {
+    mpm::ThreadTeam team(threads);
+    int failures = 0;
+    for (bool fails = true; fails; failures += fails ? 1 : 0) {
+      mpm::Wave wave;
+      const test::FailingNew memory(failures, Failing::once, nowhere);
+      try {
+        wave.run(team, lines, 6, [](std::size_t, std::size_t) {});
+        fails = false;
+      } catch (const std::bad_alloc&) {
+      }
+    }
+    CHECK(failures > 6);
+  }
+  close(nowhere);
 }

@@ -129,6 +129,7 @@ class Estimates(CommandLineTest):
                 {"body__0__box__max": large, "integrator__method": '"arkode-explicit"', "integrator__order": 5},
                 {"body__0__box__max": "[0.05, 0.04]", "space__shape_functions": '"bspline2"', **implicit},
                 {"body__0__box__max": "[0.1, 0.1]", **implicit}, {"body__0__box__max": "[0.5, 0.02]", **implicit},
+                {"body__0__box__max": "[0.2, 0.2]", **implicit},
                 {"body__0__box__max": "[0.1, 0.1]", "integrator__linear_solver": '"gmres"', "integrator__preconditioner": '"diagonal"', **implicit}]
         for changes in runs:
             top = float(changes["body__0__box__max"].split(",")[1].rstrip("]")) + 1e-3
