@@ -63,33 +63,9 @@ void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, d
   }
 }
 
-/// Whether an increment from e0 to e1 meets no event and changes no internal variable: most do, and need
-/// nothing but Hooke's law.
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTensor& e1,
-                                       double duration) const {
-  if (C && is_localised(s)) return false;
-  const double t0 = trace(s.elastic_strain), t1 = trace(e1);
-  const bool tension = t0 > 0.0 || t1 > 0.0;
-  if constexpr (D || Y == Yielding::drucker_prager)
-    if (tension && (t0 < 0.0 || t1 < 0.0)) return false;  // changes side
-  if constexpr (D)
-    if (t1 > t0 && tension) {
-      if (t1 - t0 > 3.0 * duration * s.max_rate) return false;
-      if (damage_.target(t1 / 3.0, damage_.coefficient(damage_.effective_rate(s.max_rate))) > s.crack_density)
-        return false;
-    }
-  if constexpr (has_yield) {
-    if (Y == Yielding::drucker_prager && tension) return true;
-    PointState end = s;
-    end.elastic_strain = e1;
-    return yield_function(end, secant(tension, s.crack_density)) <= 0.0;
-  }
-  return true;
-}
-
-/// The same for particles [begin, end), at most elastic_run of them: marks those that do not stay elastic,
-/// and tells whether there are any. Written to be vectorised.
+/// Marks those of the particles [begin, end), at most elastic_run of them, whose increments meet an event or
+/// change an internal variable, and tells whether there are any: most increments do not, and need nothing but
+/// Hooke's law. Written to be vectorised.
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end,
                                         double duration, Marks& marks) const {
@@ -141,6 +117,19 @@ bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t be
   }
   for (std::size_t k = 0; k < size; ++k) any |= marks[k];
   return any != 0;
+}
+
+/// Whether one increment stays elastic.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::stays_elastic(const PointState& s, const SymmetricTensor& strain,
+                                       double duration) const {
+  ParticleColumns one;
+  const SymmetricTensor& e = s.elastic_strain;
+  one.start_strain = {&e.rr, &e.zz, &e.tt, &e.rz};
+  one.strain_increment = {&strain.rr, &strain.zz, &strain.tt, &strain.rz};
+  for (std::size_t v = 0; v < variable_count; ++v) one.start_variables[v] = &(s.*variable_members[v]);
+  Marks marks;
+  return !mark_inelastic(one, 0, 1, duration, marks);
 }
 
 template <bool D, Yielding Y, bool C>

@@ -12,10 +12,9 @@ inline TangentEntries elastic_entries(const Moduli& m) {
 template <bool D, Yielding Y, bool C>
 TangentEntries Composite<D, Y, C>::tangent(const PointState& start, const SymmetricTensor& strain,
                                            double duration) const {
-  const SymmetricTensor elastic_end = start.elastic_strain + strain;
-  if (elastic_only || stays_elastic(start, elastic_end, duration)) {
+  if (elastic_only || stays_elastic(start, strain, duration)) {
     PointState end = start;
-    end.elastic_strain = elastic_end;
+    end.elastic_strain += strain;
     return elastic_entries(secant_moduli(end));
   }
   const auto end_after = [&](const SymmetricTensor& increment) {
