@@ -221,7 +221,7 @@ double Composite<D, Y, C>::take_inelastic(const ParticleColumns& p, std::size_t 
     integrator->integrate(*this, s, strain, duration, point);
     report.solver += point.solver;
     if (point.failed()) {
-      report.failed = i, report.cause = point.cause;
+      report.failed = i, report.failed_increment = strain, report.cause = point.cause;
       return 0.0;
     }
   }

@@ -101,7 +101,8 @@ struct BatchReport {
   SolverCounters solver;
   /// The first particle whose increment could not be integrated; its state is left as before the increment.
   std::optional<std::size_t> failed;
-  std::string cause;  ///< of that failure
+  SymmetricTensor failed_increment;  ///< strain increment of that failure
+  std::string cause;                 ///< of that failure
 
   /// Back to zero; keeps its memory.
   void clear() {

@@ -23,6 +23,7 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
       deformations_(system.bodies.size()) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
+    system.bodies[n].particles.keep_increments();
     mpm::ParticleGradient targets{};
     for (std::size_t k = 0; k < 5; ++k) {
       deformations_[n].gradient[k].assign(particles, 0.0);

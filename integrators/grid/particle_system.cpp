@@ -36,6 +36,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
       mirrored_(system.bodies.size()) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
+    system.bodies[n].particles.keep_increments();
     first_.push_back(size_);
     size_ += arrays() * particles;
     for (auto& column : start_[n].strain) column.assign(particles, 0.0);

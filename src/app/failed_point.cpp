@@ -18,7 +18,7 @@ std::string failed_point(const Scene& scene, const System& system, const PointFa
   for (std::size_t k = 0; k < variable_count; ++k)
     if (!p.variables[k].empty()) point.state.*variable_members[k] = p.variables[k][i];
   point.time = {0.0, failure.duration};
-  point.strain = {{}, tensor(p.strain_increment)};
+  point.strain = {{}, failure.increment};
   point.size = scene.cell;
   point.samples = 1;
   return point_toml(point);

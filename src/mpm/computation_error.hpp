@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tensor/symmetric.hpp"
+
 namespace vitrum {
 
 /// A computation that cannot go on: the message names time, body, particle, cause and remedy. Exit status 3.
@@ -12,14 +14,19 @@ class ComputationError : public std::runtime_error {
 };
 
 /// A particle whose local equations could not be integrated. Its columns still hold the state before the
-/// increment, and the increment.
+/// increment.
 class PointFailure : public ComputationError {
  public:
   PointFailure(const std::string& message, std::size_t body_index, std::size_t particle_index,
-               double increment_duration)
-      : ComputationError(message), body(body_index), particle(particle_index), duration(increment_duration) {}
+               const SymmetricTensor& strain_increment, double increment_duration)
+      : ComputationError(message),
+        body(body_index),
+        particle(particle_index),
+        increment(strain_increment),
+        duration(increment_duration) {}
 
   std::size_t body, particle;  ///< index of the body, place of the particle in its columns
+  SymmetricTensor increment;   ///< of strain, in the frame that turns with the particle
   double duration;             ///< s
 };
 

@@ -31,17 +31,18 @@ ParticleColumns columns_of(Particles& p, const Committed& committed) {
   return c;
 }
 
-[[noreturn]] void fail(const System& system, std::size_t body, std::size_t particle, double duration,
-                       const std::string& cause) {
+/// The failure that a report tells of.
+[[noreturn]] void fail(const System& system, std::size_t body, const BatchReport& report, double duration) {
   const Particles& p = system.bodies[body].particles;
+  const std::size_t particle = *report.failed;
   throw PointFailure(
       fmt::format(
           "the local equations of body '{}', particle {} at ({:.6g}, {:.6g}) m could not be integrated over "
           "{:.4g} s: {}; try a larger constitutive.rtol, a smaller step, or constitutive.method = "
           "\"closed-form\"",
           system.bodies[body].name, p.identity[particle], p.position[0][particle], p.position[1][particle],
-          duration, cause),
-      body, particle, duration);
+          duration, report.cause),
+      body, particle, report.failed_increment, duration);
 }
 
 /// Empty reports of the calling thread; workers write to its elements.
@@ -64,7 +65,7 @@ void take_increments(System& system, std::size_t body_index, const ParticleColum
                             duration, reports[k]);
   });
   for (std::size_t k = 0; k < chunks; ++k)
-    if (reports[k].failed) fail(system, body_index, *reports[k].failed, duration, reports[k].cause);
+    if (reports[k].failed) fail(system, body_index, reports[k], duration);
   for (std::size_t k = 0; k < chunks; ++k) {
     system.constitutive_solver += reports[k].solver;
     book(reports[k]);
@@ -175,19 +176,13 @@ void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
   }
   for (std::size_t k = known_events; k < report.events.size(); ++k)
     report.events[k].particle = chunk.place(report.events[k].particle);
-  if (had_failed || !report.failed) return;
-  // Who looks into the failure finds the increment with the particle.
-  Particles& p = system_.bodies[body].particles;
-  const std::size_t failed = *report.failed, place = chunk.place(failed);
-  for (std::size_t k = 0; k < 4; ++k) p.strain_increment[k][place] = increments.strain[k][failed];
-  p.spin_increment[place] = increments.spin[failed];
-  report.failed = place;
+  if (!had_failed && report.failed) report.failed = chunk.place(*report.failed);
 }
 
 void StressUpdate::book() {
   const std::size_t bodies = columns_.size(), reports = system_.grid.tiles().size() * bodies;
   for (std::size_t k = 0; k < reports; ++k)
-    if (reports_[k].failed) fail(system_, k % bodies, *reports_[k].failed, duration_, reports_[k].cause);
+    if (reports_[k].failed) fail(system_, k % bodies, reports_[k], duration_);
   open_record(system_.record);
   for (std::size_t k = 0; k < reports; ++k) {
     system_.constitutive_solver += reports_[k].solver;

@@ -271,6 +271,8 @@ Pass gather_pass(System& system, Gather what, double duration, StressUpdate* str
   const auto pass = [&]<Gather w>() {
     Pass made = pass_of<Plan<w>, void>(system, duration);
     made.stress = stress;
+    if (Plan<w>::strain && stress == nullptr)
+      for (Body& body : system.bodies) body.particles.keep_increments();
     return made;
   };
   switch (what) {

@@ -21,7 +21,8 @@ struct Particles {
       variables;                        ///< by Variable; empty where the material has no such variable
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
 
-  // Scratch of one step, never stored: strain increment in the frame that turns with the particle, and turn.
+  // Scratch, empty where passes take particles over their increments at once (mpm/transfer.hpp): strain
+  // increment in the frame that turns with the particle, and turn.
   std::array<std::vector<double>, 4> strain_increment;
   std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
   /// Stress follows from elastic strain and damage (Material::stress). Not empty: an integrator tries a state
@@ -30,6 +31,12 @@ struct Particles {
   /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
   /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
   std::vector<double> tried_stress_zr;
+
+  /// Has room for increments from now on.
+  void keep_increments() {
+    for (auto& column : strain_increment) column.resize(size);
+    spin_increment.resize(size);
+  }
 };
 
 /// What is known of a body that coasts (mpm/coasting.hpp).

@@ -32,9 +32,8 @@ void allocate(Particles& p, const Material& material) {
   const auto sized = [&](auto& columns) {
     for (auto& column : columns) column.assign(p.size, 0.0);
   };
-  sized(p.position), sized(p.velocity), sized(p.elastic_strain), sized(p.strain_increment);
+  sized(p.position), sized(p.velocity), sized(p.elastic_strain);
   p.mass.assign(p.size, 0.0);
-  p.spin_increment.assign(p.size, 0.0);
   p.identity.assign(p.size, 0);
   for (const VariableInfo& v : material.variables())
     p.variables[static_cast<std::size_t>(v.variable)].assign(p.size, 0.0);
