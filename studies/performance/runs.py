@@ -5,6 +5,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 here = pathlib.Path(__file__).resolve().parent
 bar = here / "elastic_bar.toml"
@@ -83,3 +84,19 @@ def measure(program, cases, repetitions):
         for case in cases if repetition % 2 == 0 else reversed(cases):
             runs[case.name].append(once(program, case))
     return {case.name: Timing(case, runs[case.name]) for case in cases}
+
+
+def study_seconds(program, counts, end, repetitions):
+    """Wall times by number of cases: the reference case to `end` (s), two processes at a time by Snakemake, as studies run theirs."""
+    seconds = {count: [] for count in counts}
+    for _ in range(repetitions):
+        for count in counts:
+            with tempfile.TemporaryDirectory() as folder:
+                command = ["snakemake", "--snakefile", here / "cases.smk", "--directory", folder, "--cores", "2", "--quiet", "--config",
+                           f"cases={count}", f"program={pathlib.Path(program).resolve()}", f"scene={reference}", f"end={end!r}"]
+                begun = time.perf_counter()
+                done = subprocess.run(command, capture_output=True, text=True)
+                seconds[count].append(time.perf_counter() - begun)
+                if done.returncode != 0:
+                    raise SystemExit(f"{count} cases: exit status {done.returncode}\n{done.stderr}")
+    return seconds

@@ -148,8 +148,21 @@ def growth(program, repetitions, quick):
     by_radius = runs.measure(program, [runs.Case(f"R = {R} m", runs.reference, [
         *musl, f"body.0.box.max.0={R}", f"boundary.0.box.min.0={R}", f"boundary.0.box.max.0={R + 0.1}"]) for R in radii], repetitions)
     lines.append(("radius of the plate at the same impact, time", f"{exponent(radii, [t.median for t in by_radius.values()]):.2f}"))
+    cases, what_cases_take = study_cases(program, repetitions, quick)
+    lines.append(("cases of a study beyond the first two, time", what_cases_take))
     return ("## Growth\n\n" + table(["particles", "M particle-steps/s", "spread", "us a step", "process, MB"], rows) + "\n\n" +
-            table(["what grows", "exponent"], lines) + "\n\n" + threads(program, repetitions, quick))
+            table(["what grows", "exponent"], lines) + "\n\n" + cases + "\n\n" + threads(program, repetitions, quick))
+
+
+def study_cases(program, repetitions, quick):
+    """A table of studies of so many cases, and the exponent of the time that all but the first two of them take."""
+    counts = [2, 4, 6] if quick else [2, 4, 8, 16, 32]
+    seconds = runs.study_seconds(program, counts, 0.0 if quick else 150e-6, repetitions)
+    median = {count: statistics.median(times) for count, times in seconds.items()}
+    rows = [(count, f"{median[count]:.1f}", f"{median[count] / count:.2f}") for count in counts]
+    more = counts[1:]
+    return ("Studies: cases of the reference run, two processes at a time, by Snakemake:\n\n" + table(["cases", "s", "s a case"], rows),
+            f"{exponent([count - 2 for count in more], [median[count] - median[2] for count in more]):.2f}")
 
 
 def threads(program, repetitions, quick):
