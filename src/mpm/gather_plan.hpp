@@ -52,14 +52,14 @@ class NodePacks {
                  *w0 = grid.field(Field::new_velocity_0), *w1 = grid.field(Field::new_velocity_1);
     load_tile<kind>(
         block,
-        [&](std::size_t n) {
+        [&](std::size_t n, Pack<P::width>& node) {
           Pack<2> first{v0[n], v1[n]};
           const Pack<2> last{w0[n], w1[n]};
           if constexpr (P::first == First::change) first = last - first;
           if constexpr (P::width == 4)
-            return Pack<4>{first[0], first[1], last[0], last[1]};
+            node = Pack<4>{first[0], first[1], last[0], last[1]};
           else
-            return first;
+            node = first;
         },
         nodes_);
     if (at_axis) mirror_axis(nodes_, axis_parity<P::width>);

@@ -43,9 +43,10 @@ inline std::int32_t neighbour(const Block& b, int di, int dj) {
   return b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
 }
 
-/// Fills what of the tile of block `b` can be touched with from(node), or zero where there is no node.
-template <ShapeKind kind, class Value, class From>
-inline void load_tile(const Block& b, From&& from, Value* tile) {
+/// Fills what of the tile of block `b` can be touched: by load(node, value), or with zero where there is no
+/// node.
+template <ShapeKind kind, class Value, class Load>
+inline void load_tile(const Block& b, Load&& load, Value* tile) {
   for_neighbourhood([&]<int di, int dj>() {
     using I = Overlap<kind, di>;
     using J = Overlap<kind, dj>;
@@ -56,7 +57,10 @@ inline void load_tile(const Block& b, From&& from, Value* tile) {
       for (std::size_t row = 0; row < J::count; ++row) {
         Value* to = tile + (J::entry + row) * tile_columns + I::entry;
         for (std::size_t column = 0; column < I::count; ++column)
-          to[column] = n < 0 ? Value{} : from(node + row * block_side + column);
+          if (n < 0)
+            to[column] = Value{};
+          else
+            load(node + row * block_side + column, to[column]);
       }
     }
   });
