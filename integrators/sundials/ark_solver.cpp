@@ -69,7 +69,7 @@ struct ArkSolver::Callbacks {
     *current = keep ? SUNFALSE : SUNTRUE;
     return guarded(solver, [&] {
       const int flag = self(solver).reduced_->form(t, N_VGetArrayPointer(y), gamma, keep != SUNFALSE);
-      return flag != 0 ? flag : std::abs(self(solver).reduced_->factor());
+      return flag != 0 ? flag : self(solver).reduced_->factor();
     });
   }
   static int precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z, sunrealtype, sunrealtype,

@@ -1,6 +1,7 @@
 #include "integrators/sundials/reduced_solver.hpp"
 
 #include <algorithm>
+#include <new>
 
 namespace vitrum::sundials {
 namespace {
@@ -50,7 +51,11 @@ int ReducedSolver::factor() {
   ++factorisations_;
   const double* values = SM_DATA_S(matrix_.get());
   if (klu_) {
-    const KluFactors::Outcome outcome = klu_->factor(values);
+    KluFactors::Outcome outcome = KluFactors::Outcome::out_of_memory;
+    try {
+      outcome = klu_->factor(values);
+    } catch (const std::bad_alloc&) {  // SUNDIALS' C functions know no exceptions
+    }
     out_of_memory_ = outcome == KluFactors::Outcome::out_of_memory;
     return out_of_memory_ ? -1 : outcome == KluFactors::Outcome::singular ? 1 : 0;
   }

@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/messages.hpp"
 #include "app/simulation.hpp"
+#include "mpm/stress.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_text.hpp"
@@ -31,14 +32,15 @@ output::BodySummary summarise(const Body& body, double whole) {
 }
 
 bool finite_state(const System& system) {
-  for (const Body& body : system.bodies)
-    for (std::size_t i = 0; i < body.particles.size; ++i) {
-      const Particles& p = body.particles;
+  for (const Body& body : system.bodies) {
+    const Particles& p = body.particles;
+    const auto stress = mpm::stress_of(body);
+    for (std::size_t i = 0; i < p.size; ++i) {
       const double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i] +
-                         p.elastic_strain[0][i] + p.elastic_strain[1][i] + p.elastic_strain[2][i] +
-                         p.elastic_strain[3][i];
+                         stress[0][i] + stress[1][i] + stress[2][i] + stress[3][i];
       if (!std::isfinite(sum)) return false;
     }
+  }
   return true;
 }
 

@@ -157,11 +157,11 @@ StressUpdate::StressUpdate(System& system, double duration)
 void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
                         const ChunkIncrements& increments) {
   BatchReport& report = reports_[tile * columns_.size() + body];
+  if (report.failed) return;  // the step fails, whatever comes after
   ParticleColumns c = columns_[body];
   for (std::size_t k = 0; k < 4; ++k) c.strain_increment[k] = increments.strain[k];
   c.spin_increment = increments.spin;
   const std::size_t known_events = report.events.size();
-  const bool had_failed = report.failed.has_value();
   const auto integrate = [&](const ParticleColumns& columns) {
     system_.local->integrate(*system_.bodies[body].material, columns, 0, chunk.size(), duration_, report);
   };
@@ -176,7 +176,7 @@ void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
   }
   for (std::size_t k = known_events; k < report.events.size(); ++k)
     report.events[k].particle = chunk.place(report.events[k].particle);
-  if (!had_failed && report.failed) report.failed = chunk.place(*report.failed);
+  if (report.failed) report.failed = chunk.place(*report.failed);
 }
 
 void StressUpdate::book() {

@@ -6,7 +6,7 @@
 
 namespace vitrum::mpm {
 
-/// Columns of one body that a trial replaces. Empty columns are not replaced.
+/// Columns of one body that a trial replaces. Empty columns of the state are not replaced.
 struct TrialColumns {
   std::array<std::vector<double>, 2> position, velocity;
   std::array<std::vector<double>, 4> elastic_strain;

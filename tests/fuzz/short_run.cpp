@@ -8,6 +8,7 @@
 #include "app/check_command.hpp"
 #include "app/demands.hpp"
 #include "app/watchdog.hpp"
+#include "mpm/stress.hpp"
 #include "output/particle_fields.hpp"
 #include "promises.hpp"
 #include "scene/build_system.hpp"
@@ -32,13 +33,15 @@ bool is_small(const Scene& scene) {
 }
 
 bool is_finite(const System& system) {
-  for (const Body& body : system.bodies)
-    for (std::size_t i = 0; i < body.particles.size; ++i) {
-      const Particles& p = body.particles;
+  for (const Body& body : system.bodies) {
+    const Particles& p = body.particles;
+    const auto stress = mpm::stress_of(body);
+    for (std::size_t i = 0; i < p.size; ++i) {
       double sum = p.position[0][i] + p.position[1][i] + p.velocity[0][i] + p.velocity[1][i];
-      for (const auto& column : p.elastic_strain) sum += column[i];
+      for (const auto& column : stress) sum += column[i];
       if (!std::isfinite(sum)) return false;
     }
+  }
   return true;
 }
 
