@@ -18,8 +18,7 @@ double stored_energy(const System& system) {
       s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i],
                           p.elastic_strain[3][i]};
       if (!crack_density.empty()) s.crack_density = crack_density[i];
-      sum += p.mass[i] * specific_volume *
-             body.material->secant_moduli(s).energy(s.elastic_strain);
+      sum += p.mass[i] * specific_volume * body.material->secant_moduli(s).energy(s.elastic_strain);
     }
   }
   return sum;

@@ -19,7 +19,8 @@ class EnergyLedger {
 
   /// Enters what system.record says of the last step.
   void book(const System& system);
-  /// Takes the kinetic energy of the particles as they stand: a run that stops between steps may have moved them.
+  /// Takes the kinetic energy of the particles as they stand: a run that stops between steps may have moved
+  /// them.
   void refresh_kinetic(const System& system);
 
   const EnergyTotals& totals() const { return totals_; }

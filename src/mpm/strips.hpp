@@ -27,8 +27,8 @@ struct Strips {
     }
   };
   std::vector<Piece> pieces;
-  std::vector<std::size_t> first_pieces{
-      0};  ///< strip n has the pieces [first_pieces[n], first_pieces[n + 1])
+  /// Strip n has the pieces [first_pieces[n], first_pieces[n + 1]).
+  std::vector<std::size_t> first_pieces{0};
 
   /// blocks: those with tiles first; both kinds by rising row (by_row) or column.
   void set(const std::vector<Block>& blocks, std::size_t tiles, bool by_row);

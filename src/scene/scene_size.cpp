@@ -25,8 +25,8 @@ constexpr double of_block =
 constexpr double of_unknowns = 9.0 * 8.0, vectors = 11.0, vectors_of_stage = 1.5;
 /// arkode-implicit: vectors over nodes and particles, tangents, and the matrix.
 constexpr double of_implicit_cell = 3600.0;
-/// The factors and their copy (KluFactors): entries grow with a body's width in cells, less than in proportion
-/// (minimum degree).
+/// The factors and their copy (KluFactors): entries grow with a body's width in cells, less than in
+/// proportion (minimum degree).
 constexpr double of_factor = 600.0, fill_exponent = 0.45, wider_stencil = 4.6;
 
 double blocks(const ShapeMeasures& m, double cell) {

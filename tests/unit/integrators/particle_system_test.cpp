@@ -25,7 +25,8 @@ TEST_CASE("A particle beyond the axis has the mirrored rates of its image", "[in
     for (std::size_t i = 4 * n; i < 8 * n; ++i) y[i] = random.uniform(-1e-2, 1e-2);  // strain
     for (std::size_t i = 8 * n; i < 9 * n; ++i) y[i] = random.uniform(-1.0, 1.0);    // turn
     REQUIRE(system.rates(0.1, y.data(), f.data()));
-    // The particle nearest to the axis changes places with its image: displacement r, velocity r, strain rz, turn.
+    // The particle nearest to the axis changes places with its image: displacement r, velocity r, strain rz,
+    // turn.
     std::size_t i = 0;
     for (std::size_t k = 0; k < n; ++k)
       if (run.particles().position[0][k] < run.particles().position[0][i]) i = k;

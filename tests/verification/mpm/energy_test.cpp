@@ -113,7 +113,7 @@ TEST_CASE("Every step's change of kinetic energy is what the grid's momenta say,
         double expected = 0.0;
         for (std::size_t n = 0; n < grid.blocks().size() * mpm::block_nodes; ++n)
           for (const auto& [v, w] : {std::pair(Field::velocity_0, Field::new_velocity_0),
-                                    std::pair(Field::velocity_1, Field::new_velocity_1)})
+                                     std::pair(Field::velocity_1, Field::new_velocity_1)})
             expected += grid.field(Field::mass)[n] * grid.field(v)[n] * (grid.field(w)[n] - grid.field(v)[n]);
         const std::vector<double> after = velocities();
         std::size_t first = 0;
