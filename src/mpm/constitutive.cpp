@@ -45,11 +45,11 @@ ParticleColumns columns_of(Particles& p, const Committed& committed) {
       body, particle, report.failed_increment, duration);
 }
 
-/// Empty reports of the calling thread; workers write to its elements.
-std::vector<BatchReport>& cleared_reports(std::size_t count) {
+/// Reports of the calling thread, to be cleared by who writes to them: what one thread has written, another
+/// one fetches slowly.
+std::vector<BatchReport>& reports_of(std::size_t count) {
   static thread_local std::vector<BatchReport> reports;
   if (reports.size() < count) reports.resize(count);
-  for (std::size_t k = 0; k < count; ++k) reports[k].clear();
   return reports;
 }
 
@@ -59,8 +59,9 @@ void take_increments(System& system, std::size_t body_index, const ParticleColum
                      Book&& book) {
   const Body& body = system.bodies[body_index];
   const std::size_t size = body.particles.size, chunks = (size + chunk_size - 1) / chunk_size;
-  std::vector<BatchReport>& reports = cleared_reports(chunks);
+  std::vector<BatchReport>& reports = reports_of(chunks);
   system.team->for_each_chunk(chunks, [&](std::size_t k) {
+    reports[k].clear();
     system.local->integrate(*body.material, columns, k * chunk_size, std::min(size, (k + 1) * chunk_size),
                             duration, reports[k]);
   });
@@ -150,8 +151,13 @@ class Collected {
 StressUpdate::StressUpdate(System& system, double duration)
     : system_(system),
       duration_(duration),
-      reports_(cleared_reports(system.grid.tiles().size() * system.bodies.size())) {
+      reports_(reports_of(system.grid.tiles().size() * system.bodies.size())) {
   for (Body& body : system.bodies) columns_.push_back(committing_columns(body.particles));
+}
+
+void StressUpdate::start(std::size_t tile) {
+  const std::size_t bodies = columns_.size();
+  for (std::size_t k = tile * bodies; k < (tile + 1) * bodies; ++k) reports_[k].clear();
 }
 
 void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,

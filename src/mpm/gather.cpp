@@ -182,7 +182,11 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
   Pack<2>* momenta = grid.tile_data(tile).template packs<2>();
   if constexpr (P::rescatter) clear_tile<kind>(momenta);
 
+  if constexpr (P::strain)
+    if (stress != nullptr) stress->start(tile);
+
   double kinetic = 0.0;
+  [[maybe_unused]] bool left = false;
   const double cell = grid.cell(), per_cell = 1.0 / cell;
   [[maybe_unused]] const CellRange cells(block, per_cell);
   Interpolated<P> at;
@@ -208,10 +212,10 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
       }
       if constexpr (P::velocity) kinetic += store_velocity(chunk, p, at);
       if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);
-      if constexpr (P::position)
-        if (store_position<axisymmetric>(chunk, p, at, r, z, cells, duration)) grid.note_left(tile);
+      if constexpr (P::position) left |= store_position<axisymmetric>(chunk, p, at, r, z, cells, duration);
     });
   }
+  if constexpr (P::position) grid.note_moved(tile, system.bodies, left);
   if constexpr (P::rescatter && axisymmetric && kind != ShapeKind::linear)
     if (block.column == 0) fold_axis(momenta, axis_parity<2>);
   return kinetic;

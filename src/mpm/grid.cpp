@@ -116,7 +116,8 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
     b.tile = n;
     find_[key_of(b.column, b.row)] = n;
   }
-  left_.assign(tile_block_.size(), 0);
+  moved_.resize(tile_block_.size());
+  for (Moved& tile : moved_) tile.clear();
   add_neighbours(by_row);
   strips_.set(blocks_, tile_block_.size(), by_row);
   mark_constraints();

@@ -106,12 +106,13 @@ class Grid {
   /// particles are stored. Throws ComputationError for positions that are not finite or too far away (2^31
   /// cells).
   void rebuild(const std::vector<Body>& bodies);
-  /// The same lists as rebuild, for the cost of the particles that have left: only the tiles noted are looked
-  /// through. Throws as rebuild; the lists are void then.
+  /// The same lists as rebuild, for the cost of the particles that have left since. Throws as rebuild; the
+  /// lists are void then.
   void relist(const std::vector<Body>& bodies, ThreadTeam& team);
-  /// Notes that some particle of a tile may have left the cells that the tile was made for. (Each tile by one
-  /// thread.)
-  void note_left(std::size_t tile) { left_[tile] = 1; }
+  /// To be called once the particles of a tile have moved, by one thread for each tile. may_have_left: some
+  /// particle may be out of the cells that the tile was made for; these are looked for at once, while their
+  /// positions are in the cache.
+  void note_moved(std::size_t tile, const std::vector<Body>& bodies, bool may_have_left);
   bool some_left() const;
 
   /// Moves the particles of all bodies in memory so that those of a block lie one behind the other.
@@ -131,6 +132,9 @@ class Grid {
     const std::size_t k = tile * body_count_ + body;
     return {index_.data() + offset_[k], index_.data() + offset_[k + 1]};
   }
+
+  /// Particles of all tiles before this one.
+  std::size_t listed_before(std::size_t tile) const { return offset_[tile * body_count_]; }
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const std::vector<std::int32_t>& tiles() const { return tile_block_; }
@@ -155,9 +159,27 @@ class Grid {
  private:
   /// A particle that has left its block.
   struct Mover {
-    std::size_t from, to;  ///< lists: tile * body_count_ + body
+    std::uint32_t from, to;  ///< lists: tile * body_count_ + body
+    std::uint32_t place;     ///< in the list that it leaves
     std::uint32_t particle, identity;
-    std::int64_t i, j;  ///< its cell
+    std::int32_t i, j;  ///< its cell
+  };
+  /// The same as the lists see it; small, because all threads read it.
+  struct Leaver {
+    std::uint32_t list, place;
+  };
+  struct Comer {
+    std::uint32_t list, identity, particle;
+  };
+  /// What has become of the particles of a tile.
+  struct alignas(64) Moved {
+    std::vector<Mover> movers;
+    bool wider = false;  ///< the cells of the block have been widened
+    bool lost = false;   ///< some position is no cell's
+    void clear() {
+      if (some()) movers.clear(), wider = lost = false;
+    }
+    bool some() const { return !movers.empty() || wider || lost; }
   };
   /// The lists as they were.
   struct Lists {
@@ -174,9 +196,9 @@ class Grid {
   void mark_constraints();
   std::size_t scattered_in(std::size_t tile) const;
 
-  void find_movers(const std::vector<Body>& bodies, ThreadTeam& team);
-  void find_movers_of(std::size_t tile, const std::vector<Body>& bodies);
+  void find_movers(std::size_t tile, const std::vector<Body>& bodies);
   std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
+  std::int32_t destination(const Mover& mover) const;
   bool blocks_serve();
   std::vector<Block> blocks_after_moves() const;
   void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
@@ -193,15 +215,15 @@ class Grid {
   std::vector<std::int32_t> tile_block_;  // tile -> block
   Strips strips_;
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
-  std::vector<char> left_;                     // by tile
+  std::vector<Moved> moved_;                   // by tile, since the lists were made
   std::size_t scattered_ = 0;
-  std::vector<std::int32_t> home_;                  // scratch: block of each particle
-  std::vector<std::uint32_t> place_;                // scratch: place of each identity
-  std::vector<Mover> movers_;                       // scratch: by the list left and the place there
-  std::vector<Mover> comers_;                       // scratch: by the list entered and identity
-  std::vector<std::vector<Mover>> movers_of_tile_;  // scratch
-  std::vector<std::size_t> scattered_of_tile_;      // scratch
-  Lists old_;                                       // scratch
+  std::vector<std::int32_t> home_;              // scratch: block of each particle
+  std::vector<std::uint32_t> place_;            // scratch: place of each identity
+  std::vector<Mover> movers_;                   // scratch: by the list left and the place there
+  std::vector<Leaver> leavers_;                 // scratch: by list and place
+  std::vector<Comer> comers_;                   // scratch: by list and identity
+  std::vector<std::size_t> scattered_of_tile_;  // scratch
+  Lists old_;                                   // scratch
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;

@@ -10,26 +10,59 @@
 namespace vitrum::mpm {
 
 std::int64_t checked_cell(double x, const Body& body, std::size_t particle) {
-  constexpr double limit = 2147483000.0;  // cells; block coordinates are 32-bit
-  if (!(std::abs(x) < limit))
+  if (!is_in_cell(x))
     throw ComputationError(
         fmt::format("body '{}', particle {}: position is {} cells from the origin; it must be finite and "
                     "within {:.3g} cells (an unstable step scatters particles: reduce the step)",
-                    body.name, body.particles.identity[particle], x, limit));
+                    body.name, body.particles.identity[particle], x, farthest_cell));
   return cell_of(x);
 }
 
 bool Grid::some_left() const {
-  return std::any_of(left_.begin(), left_.end(), [](char left) { return left != 0; });
+  return std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.some(); });
+}
+
+void Grid::note_moved(std::size_t tile, const std::vector<Body>& bodies, bool may_have_left) {
+  moved_[tile].clear();
+  if (may_have_left) find_movers(tile, bodies);
+}
+
+/// Finds the particles that have left the block of a tile, in the order of their lists. The cells of the
+/// block are widened where particles have only spread.
+void Grid::find_movers(std::size_t tile, const std::vector<Body>& bodies) {
+  Block& block = blocks_[tile];
+  Moved& moved = moved_[tile];
+  const double per_cell = 1.0 / cell_;
+  CellRange cells(block, per_cell);
+  for (std::size_t n = 0; n < body_count_; ++n) {
+    const Particles& p = bodies[n].particles;
+    const auto list = static_cast<std::uint32_t>(tile * body_count_ + n);
+    const Range range = particles(tile, n);
+    for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
+      const double x0 = p.position[0][*at], x1 = p.position[1][*at];
+      if (cells.contain(x0, x1)) continue;
+      if (!is_in_cell(x0 * per_cell) || !is_in_cell(x1 * per_cell)) {
+        moved.lost = true;
+        continue;
+      }
+      const std::int64_t i = cell_of(x0 * per_cell), j = cell_of(x1 * per_cell);
+      if (holds(block, i, j)) {
+        moved.wider |= widen(block, i, j);
+        cells = CellRange(block, per_cell);
+      } else {
+        moved.movers.push_back({list, 0, static_cast<std::uint32_t>(at - range.begin), *at, p.identity[*at],
+                                static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+      }
+    }
+  }
 }
 
 void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
-  try {
-    find_movers(bodies, team);
-  } catch (const ComputationError&) {
-    rebuild(bodies);  // throws for the same particle whichever thread came first
-    throw;
-  }
+  // Only making all lists anew tells the same lost particle whichever tile it was in.
+  if (std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.lost; }))
+    return rebuild(bodies);
+  movers_.clear();
+  for (const Moved& tile : moved_) movers_.insert(movers_.end(), tile.movers.begin(), tile.movers.end());
   std::vector<std::int32_t> rank(tile_block_.size());  // old tile -> new tile; -1: holds no particle any more
   std::iota(rank.begin(), rank.end(), 0);
   if (!blocks_serve()) {
@@ -37,12 +70,12 @@ void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
     set_blocks(blocks_after_moves());
     for (std::size_t tile = 0; tile < old.size(); ++tile)
       rank[tile] = tile_of(old[tile].column, old[tile].row);
+    const auto bodies_listed = static_cast<std::uint32_t>(body_count_);
+    for (Mover& m : movers_)
+      m.to = static_cast<std::uint32_t>(tile_of(block_of(m.i), block_of(m.j))) * bodies_listed +
+             m.from % bodies_listed;
   }
-  for (Mover& m : movers_)
-    m.to =
-        static_cast<std::size_t>(tile_of(block_of(m.i), block_of(m.j))) * body_count_ + m.from % body_count_;
   move_between_lists(rank, bodies, team);
-  std::fill(left_.begin(), left_.end(), char{0});
 }
 
 /// The tile of a block; -1: none.
@@ -51,54 +84,32 @@ std::int32_t Grid::tile_of(std::int32_t column, std::int32_t row) const {
   return entry == find_.end() ? -1 : blocks_[static_cast<std::size_t>(entry->second)].tile;
 }
 
-/// Finds the particles that have left their blocks, in the order of their lists. The cells of blocks whose
-/// particles have only spread are widened.
-void Grid::find_movers(const std::vector<Body>& bodies, ThreadTeam& team) {
-  movers_of_tile_.resize(tile_block_.size());
-  team.for_each_chunk(tile_block_.size(), [&](std::size_t tile) {
-    movers_of_tile_[tile].clear();
-    if (left_[tile] != 0) find_movers_of(tile, bodies);
-  });
-  movers_.clear();
-  for (const std::vector<Mover>& movers : movers_of_tile_)
-    movers_.insert(movers_.end(), movers.begin(), movers.end());
-}
-
-void Grid::find_movers_of(std::size_t tile, const std::vector<Body>& bodies) {
-  Block& block = blocks_[tile];
-  const double per_cell = 1.0 / cell_;
-  const CellRange cells(block, per_cell);
-  for (std::size_t n = 0; n < body_count_; ++n) {
-    const auto& x = bodies[n].particles.position;
-    const Range range = particles(tile, n);
-    for (const std::uint32_t* at = range.begin; at != range.end; ++at) {
-      const double x0 = x[0][*at], x1 = x[1][*at];
-      if (cells.contain(x0, x1)) continue;
-      const std::int64_t i = checked_cell(x0 * per_cell, bodies[n], *at),
-                         j = checked_cell(x1 * per_cell, bodies[n], *at);
-      if (holds(block, i, j))
-        widen(block, i, j);
-      else
-        movers_of_tile_[tile].push_back(
-            {tile * body_count_ + n, 0, *at, bodies[n].particles.identity[*at], i, j});
-    }
-  }
+/// The tile that a mover goes to, as blocks are now; -1: none.
+std::int32_t Grid::destination(const Mover& m) const {
+  const Block& from = blocks_[m.from / body_count_];
+  const std::int64_t di = std::int64_t{block_of(m.i)} - from.column,
+                     dj = std::int64_t{block_of(m.j)} - from.row;
+  if (std::max(std::abs(di), std::abs(dj)) > 1) return tile_of(block_of(m.i), block_of(m.j));
+  const std::int32_t block = from.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
+  return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)].tile;
 }
 
 /// Whether the blocks there are can take the movers: none is new, none is empty afterwards, and none reaches
-/// for nodes that are not there. Widens their cells.
+/// for nodes that are not there. Widens their cells, and enters where the movers go.
 bool Grid::blocks_serve() {
   std::vector<std::int64_t> size(tile_block_.size());
   for (std::size_t tile = 0; tile < size.size(); ++tile)
     size[tile] = std::int64_t{offset_[(tile + 1) * body_count_]} - offset_[tile * body_count_];
-  for (const Mover& m : movers_) {
-    const std::int32_t to = tile_of(block_of(m.i), block_of(m.j));
+  bool wider = std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.wider; });
+  for (Mover& m : movers_) {
+    const std::int32_t to = destination(m);
     if (to < 0) return false;
-    widen(blocks_[static_cast<std::size_t>(to)], m.i, m.j);
+    wider |= widen(blocks_[static_cast<std::size_t>(to)], m.i, m.j);
     --size[m.from / body_count_], ++size[static_cast<std::size_t>(to)];
+    m.to = static_cast<std::uint32_t>(static_cast<std::size_t>(to) * body_count_ + m.from % body_count_);
   }
-  for (std::size_t tile = 0; tile < size.size(); ++tile) {
-    if (size[tile] == 0) return false;
+  if (std::any_of(size.begin(), size.end(), [](std::int64_t n) { return n == 0; })) return false;
+  for (std::size_t tile = 0; wider && tile < size.size(); ++tile) {
     const auto [left, right, down, up] = reach(blocks_[tile]);
     for (int dj = down; dj <= up; ++dj)
       for (int di = left; di <= right; ++di)
@@ -150,46 +161,61 @@ void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::
   }
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
 
-  comers_ = movers_;
-  std::sort(comers_.begin(), comers_.end(), [](const Mover& a, const Mover& b) {
-    return a.to != b.to ? a.to < b.to : a.identity < b.identity;
+  leavers_.clear(), comers_.clear();
+  for (const Mover& m : movers_)
+    leavers_.push_back({m.from, m.place}), comers_.push_back({m.to, m.identity, m.particle});
+  std::sort(comers_.begin(), comers_.end(), [](const Comer& a, const Comer& b) {
+    return a.list != b.list ? a.list < b.list : a.identity < b.identity;
   });
   scattered_of_tile_.resize(tile_block_.size());
   team.for_each_chunk(tile_block_.size(), [&](std::size_t tile) {
     for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
     scattered_of_tile_[tile] = scattered_in(tile);
+    moved_[tile].clear();
   });
   scattered_ = std::accumulate(scattered_of_tile_.begin(), scattered_of_tile_.end(), std::size_t{0});
 }
 
 /// Makes a list of the old one and of those who left and came.
 void Grid::merge_list(std::size_t list, const Particles& p) {
-  const auto first_of = [](const std::vector<Mover>& movers, std::size_t of, std::size_t Mover::*which) {
-    return std::lower_bound(movers.begin(), movers.end(), of,
-                            [which](const Mover& m, std::size_t l) { return m.*which < l; });
+  const auto those_of = [](const auto& movers, std::size_t of) {
+    const auto first = std::lower_bound(movers.begin(), movers.end(), of,
+                                        [](const auto& m, std::size_t l) { return m.list < l; });
+    return std::pair(first, std::find_if(first, movers.end(), [of](const auto& m) { return m.list != of; }));
   };
-  // Movers stand in the order of the lists that they left; those of a list in the order in which they stood.
-  auto comer = first_of(comers_, list, &Mover::to);
-  const auto last_comer = std::find_if(comer, comers_.cend(), [&](const Mover& m) { return m.to != list; });
-  const bool is_new = old_.list[list] < 0;
-  const std::size_t from = is_new ? 0 : static_cast<std::size_t>(old_.list[list]);
-  const std::uint32_t *at = old_.index.data() + old_.offset[from],
-                      *end = is_new ? at : old_.index.data() + old_.offset[from + 1];
-  auto leaver = is_new ? movers_.cend() : first_of(movers_, from, &Mover::from);
+  auto [comer, last_comer] = those_of(comers_, list);
   std::uint32_t* to = index_.data() + offset_[list];
-  if (comer == last_comer && (leaver == movers_.cend() || leaver->from != from)) {
-    std::copy(at, end, to);
+  if (old_.list[list] < 0) {
+    for (; comer != last_comer; ++comer) *to++ = comer->particle;
     return;
   }
-  for (; at != end; ++at) {
-    if (leaver != movers_.cend() && leaver->from == from && leaver->particle == *at) {
-      ++leaver;
-      continue;
+  const auto from = static_cast<std::size_t>(old_.list[list]);
+  auto [leaver, last_leaver] = those_of(leavers_, from);
+  const std::uint32_t *const begin = old_.index.data() + old_.offset[from],
+                             *const end = old_.index.data() + old_.offset[from + 1], *at = begin;
+  // Where the next one comes in, among those who were there.
+  const auto place_of_comer = [&] {
+    return comer == last_comer ? end
+                               : std::lower_bound(at, end, comer->identity,
+                                                  [&](std::uint32_t particle, std::uint32_t identity) {
+                                                    return p.identity[particle] < identity;
+                                                  });
+  };
+  const std::uint32_t* entry = place_of_comer();
+  for (; leaver != last_leaver || comer != last_comer;) {
+    const bool leaves = leaver != last_leaver && begin + leaver->place < entry;
+    const std::uint32_t* next = leaves ? begin + leaver->place : entry;
+    to = std::copy(at, next, to);
+    at = next;
+    if (leaves) {
+      ++at, ++leaver;
+    } else {
+      *to++ = comer->particle;
+      ++comer;
+      entry = place_of_comer();
     }
-    for (; comer != last_comer && comer->identity < p.identity[*at]; ++comer) *to++ = comer->particle;
-    *to++ = *at;
   }
-  for (; comer != last_comer; ++comer) *to++ = comer->particle;
+  std::copy(at, end, to);
 }
 
 }  // namespace vitrum::mpm

@@ -240,7 +240,7 @@ void refresh_grid_for_positions(System& system) {
   Grid& grid = system.grid;
   if (!system.grid_is_stale)
     system.team->for_each_chunk(grid.tiles().size(), [&](std::size_t tile) {
-      if (grid.has_left(tile, system.bodies)) grid.note_left(tile);
+      grid.note_moved(tile, system.bodies, grid.has_left(tile, system.bodies));
     });
   refresh_grid(system);
 }

@@ -1,58 +1,99 @@
 #include "mpm/storage.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "mpm/grid.hpp"
 
 namespace vitrum::mpm {
 namespace {
 
-/// Puts column[order[i]] at place i.
-template <class T>
-void reorder(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
-  static thread_local std::vector<T> old;
-  if (column.empty()) return;
-  old.resize(column.size());
-  old.swap(column);
-  for (std::size_t i = 0; i < order.size(); ++i) column[i] = old[order[i]];
+/// What one thread puts into order: the particles of some tiles, which it is the one to work with.
+class Part {
+ public:
+  /// lists: of these tiles, list after list those of the bodies, with the places of their particles; on
+  /// return with the new ones. places: the new place of each list's first particle. Copies what other parts
+  /// are about to overwrite.
+  void collect(const std::vector<Body>& bodies, std::span<const std::span<std::uint32_t>> lists,
+               std::span<const std::uint32_t> places);
+  /// Puts the particles at their new places. All parts must have been collected.
+  void place(std::vector<Body>& bodies) const;
+
+ private:
+  /// The particles of a body.
+  struct Stretch {
+    std::size_t begin = 0;               // first of the new places
+    std::vector<std::uint32_t> from;     // the old place, by new place
+    std::vector<std::uint32_t> foreign;  // which come from places that are not the part's
+    std::vector<double> values;          // of these, column by column
+  };
+  std::vector<Stretch> stretches_;  // by body
+};
+
+void Part::collect(const std::vector<Body>& bodies, std::span<const std::span<std::uint32_t>> lists,
+                   std::span<const std::uint32_t> places) {
+  stretches_.resize(bodies.size());
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    Stretch& s = stretches_[body];
+    s.from.clear(), s.foreign.clear(), s.values.clear();
+    s.begin = lists.empty() ? 0 : places[body];
+    for (std::size_t n = body; n < lists.size(); n += bodies.size()) {
+      s.from.insert(s.from.end(), lists[n].begin(), lists[n].end());
+      std::iota(lists[n].begin(), lists[n].end(), places[n]);
+    }
+    const auto begin = static_cast<std::uint32_t>(s.begin), size = static_cast<std::uint32_t>(s.from.size());
+    for (std::uint32_t k = 0; k < size; ++k)
+      if (s.from[k] - begin >= size) s.foreign.push_back(k);  // (places before wrap around)
+    for_each_column(bodies[body].particles, [&](const auto& column) {
+      for (const std::uint32_t k : s.foreign)
+        if (!column.empty()) s.values.push_back(static_cast<double>(column[s.from[k]]));
+    });
+    for (const std::uint32_t k : s.foreign) s.from[k] = begin;  // any of the part's
+  }
 }
 
-template <class Columns, class Call>
-void for_each_column(Columns& p, Call&& call) {
-  const auto all = [&](auto& columns) {
-    for (auto& column : columns) call(column);
-  };
-  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables);
-  call(p.mass), call(p.identity);
+void Part::place(std::vector<Body>& bodies) const {
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    const Stretch& s = stretches_[body];
+    const double* value = s.values.data();
+    for_each_column(bodies[body].particles, [&]<class T>(std::vector<T>& column) {
+      static thread_local std::vector<T> room;
+      if (column.empty()) return;
+      const std::size_t size = s.from.size();
+      if (room.size() < size) room.resize(size);
+      T* const moved = room.data();
+      for (std::size_t k = 0; k < size; ++k) moved[k] = column[s.from[k]];
+      for (const std::uint32_t k : s.foreign) moved[k] = static_cast<T>(*value++);
+      std::copy(moved, moved + size, column.data() + s.begin);
+    });
+  }
 }
 
 }  // namespace
 
-void reorder(Particles& p, const std::vector<std::uint32_t>& order) {
-  for_each_column(p, [&](auto& column) { reorder(column, order); });
-}
-
 void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team) {
-  for (std::size_t body = 0; body < body_count_; ++body) {
-    if (bodies[body].coasting) continue;
-    place_.clear();  // the particles in their new order
-    for (std::size_t tile = 0; tile < tile_block_.size(); ++tile) {
-      const auto [begin, end] = particles(tile, body);
-      const auto first = static_cast<std::uint32_t>(place_.size());
-      place_.insert(place_.end(), begin, end);
-      std::iota(index_.begin() + offset_[tile * body_count_ + body],
-                index_.begin() + offset_[tile * body_count_ + body + 1], first);
-    }
-    Particles& p = bodies[body].particles;
-    std::size_t columns = 0;
-    for_each_column(p, [&](auto&) { ++columns; });
-    team.for_each_chunk(columns, [&](std::size_t wanted) {
-      std::size_t k = 0;
-      for_each_column(p, [&](auto& column) {
-        if (k++ == wanted) reorder(column, place_);
-      });
-    });
+  const std::size_t lists = offset_.size() - 1, count = static_cast<std::size_t>(team.size());
+  static thread_local std::vector<Part> parts;  // of the calling thread; workers write to them
+  static thread_local std::vector<std::span<std::uint32_t>> list;
+  static thread_local std::vector<std::uint32_t> places;
+  parts.resize(count), list.resize(lists), places.resize(lists);
+  std::vector<std::uint32_t> next(body_count_, 0);
+  for (std::size_t n = 0; n < lists; ++n) {
+    list[n] = {index_.data() + offset_[n], index_.data() + offset_[n + 1]};
+    places[n] = std::exchange(next[n % body_count_], next[n % body_count_] + offset_[n + 1] - offset_[n]);
   }
+  // (Thread-local names mean something else in each thread.)
+  const std::span<Part> all_parts = parts;
+  const std::span<const std::span<std::uint32_t>> all_lists = list;
+  const std::span<const std::uint32_t> all_places = places;
+  const auto first_of = [&](std::size_t part) { return tile_block_.size() * part / count * body_count_; };
+  team.for_each_chunk(count, [&](std::size_t n) {
+    const std::size_t first = first_of(n), size = first_of(n + 1) - first;
+    all_parts[n].collect(bodies, all_lists.subspan(first, size), all_places.subspan(first, size));
+  });
+  team.for_each_chunk(count, [&](std::size_t n) { all_parts[n].place(bodies); });
   scattered_ = 0;
 }
 

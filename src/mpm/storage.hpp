@@ -1,12 +1,16 @@
 #pragma once
-#include <cstdint>
-#include <vector>
-
 #include "mpm/particles.hpp"
 
 namespace vitrum::mpm {
 
-/// Puts the particle at place order[i] at place i, with all that it keeps from step to step.
-void reorder(Particles& particles, const std::vector<std::uint32_t>& order);
+/// Calls call(column) for all that particles keep from step to step, in a fixed order.
+template <class ParticleColumns, class Call>
+void for_each_column(ParticleColumns& p, Call&& call) {
+  const auto all = [&](auto& columns) {
+    for (auto& column : columns) call(column);
+  };
+  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables);
+  call(p.mass), call(p.identity);
+}
 
 }  // namespace vitrum::mpm

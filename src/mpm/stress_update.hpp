@@ -18,7 +18,9 @@ class StressUpdate {
  public:
   StressUpdate(System& system, double duration);
 
-  /// A chunk of a body in a tile. Called from several threads, for different tiles.
+  /// Before the chunks of a tile. Called from several threads, for different tiles, as `take`.
+  void start(std::size_t tile);
+  /// A chunk of a body in a tile.
   void take(std::size_t tile, std::size_t body, const Chunk& chunk, const ChunkIncrements& increments);
   /// Fills the energies and events of system.record. Throws PointFailure.
   void book();

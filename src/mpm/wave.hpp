@@ -4,15 +4,20 @@
 #include <span>
 #include <type_traits>
 
+#include "mpm/thread_shares.hpp"
 #include "mpm/thread_team.hpp"
 
 namespace vitrum::mpm {
 
 /// Takes work that lies in lines through stages, as a wave runs through the lines: a stage of a line is taken
 /// as soon as the stage before is over for it and for the lines beside it. What a line needs is then still in
-/// the cache when the next stage asks for it, and threads meet once, not after every stage.
+/// the cache when the next stage asks for it, and threads meet once, not after every stage. Each thread takes
+/// its own share of the lines through all stages; two neighbours begin where both are ready or end where both
+/// are, so that no line waits for long, and is out of the cache, when the one beside it comes.
 class Wave {
  public:
+  static constexpr std::size_t most_stages = 8;
+
   Wave();
   ~Wave();
   Wave(Wave&&) noexcept;
@@ -20,13 +25,17 @@ class Wave {
 
   /// Calls body(stage, piece) for every stage in [0, stages) of every piece; returns when all are done.
   /// lines: line n has the pieces [lines[n], lines[n + 1]), at least one; pieces may be taken by different
-  /// threads. An exception ends the wave early and reaches the caller (of several, one does).
-  template <class Body>
-  void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, Body&& body) {
+  /// threads. work_before(piece): the work of all pieces before, for piece in [0, lines.back()]; never
+  /// falling, the shares of the threads follow it (thread_shares.hpp). An exception ends the wave early and
+  /// reaches the caller (of several, one does).
+  template <class WorkBefore, class Body>
+  void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages,
+           const WorkBefore& work_before, Body&& body) {
     if (lines.size() < 2) return;
     if (team.size() == 1) return run_alone(lines, stages, body);
+    const auto shares = shares_.divide(static_cast<std::size_t>(team.size()), lines.back(), work_before);
     run_together(
-        team, lines, stages,
+        team, lines, shares, stages,
         [](void* context, std::size_t stage, std::size_t piece) {
           (*static_cast<std::remove_reference_t<Body>*>(context))(stage, piece);
         },
@@ -44,11 +53,13 @@ class Wave {
         if (const std::size_t line = front - stage; line < count)
           for (std::size_t piece = lines[line]; piece < lines[line + 1]; ++piece) body(stage, piece);
   }
-  void run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, Call call,
-                    void* context);
+
+  void run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::span<const std::size_t> shares,
+                    std::size_t stages, Call call, void* context);
 
   struct Shared;
   std::unique_ptr<Shared> shared_;  // only once several threads need it
+  ThreadShares shares_;
 };
 
 }  // namespace vitrum::mpm

@@ -123,7 +123,8 @@ TEST_CASE("Memory that runs out in a wave ends it, on any thread", "[memory]") {
       mpm::Wave wave;
       const test::FailingNew memory(failures, Failing::once, nowhere);
       try {
-        wave.run(team, lines, 6, [](std::size_t, std::size_t) {});
+        wave.run(
+            team, lines, 6, [](std::size_t piece) { return piece; }, [](std::size_t, std::size_t) {});
         fails = false;
       } catch (const std::bad_alloc&) {
       }

@@ -5,11 +5,11 @@
 
 #include "analysis/energy_ledger.hpp"
 #include "mpm/computation_error.hpp"
-#include "mpm/storage.hpp"
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "support/mpm_scene.hpp"
+#include "support/reorder.hpp"
 
 namespace vitrum::test {
 
@@ -54,7 +54,7 @@ class MpmRun final : private StepObserver {
     for (Body& body : system.bodies) {
       std::vector<std::uint32_t> place(body.particles.size);
       for (std::uint32_t i = 0; i < place.size(); ++i) place[body.particles.identity[i]] = i;
-      mpm::reorder(body.particles, place);
+      reorder(body.particles, place);
     }
     system.grid_is_stale = true;
   }

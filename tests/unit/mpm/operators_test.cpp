@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "mpm/storage.hpp"
 #include "mpm/stress.hpp"
 #include "mpm/transfer.hpp"
 #include "support/mpm_run.hpp"

@@ -159,7 +159,7 @@ TEST_CASE("Lists amended for the particles that left are those of a rebuild", "[
           x[1][i] += random.uniform(-far, far) + (n == 0 ? drift : -drift);
         }
       for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile)
-        if (grid.has_left(tile, run.system.bodies)) grid.note_left(tile);
+        grid.note_moved(tile, run.system.bodies, grid.has_left(tile, run.system.bodies));
       const std::size_t blocks = grid.blocks().size();
       grid.relist(run.system.bodies, *run.system.team);
       anew.rebuild(run.system.bodies);
@@ -206,7 +206,7 @@ TEST_CASE("Which of many lost particles an error names does not depend on thread
       for (std::size_t i = 0; i < p.size; ++i)
         if (std::isnan(p.position[1][i])) first = std::min(first, p.identity[i]);
       for (std::size_t tile = 0; tile < run.system.grid.tiles().size(); ++tile)
-        run.system.grid.note_left(tile);
+        run.system.grid.note_moved(tile, run.system.bodies, true);
       CHECK_THROWS_WITH(mpm::refresh_grid(run.system),
                         contains_text("particle " + std::to_string(first) + ": position is nan"));
     }
