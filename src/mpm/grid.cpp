@@ -137,6 +137,20 @@ void Grid::provide_tile_data(std::size_t window) {
   tile_data_.resize(std::min(room, tile_block_.size()));
 }
 
+void Grid::share_tiles(std::span<const std::size_t> shares) {
+  shares_.clear();
+  for (const std::size_t piece : shares)
+    shares_.push_back(piece == strips_.pieces.size() ? tile_block_.size() : strips_.pieces[piece].first_tile);
+}
+
+/// The first tile of a thread's share, as tiles are now (they may have become others since); thread ==
+/// threads: the end.
+std::size_t Grid::first_tile_of(std::size_t thread, std::size_t threads) const {
+  if (thread == threads) return tile_block_.size();
+  if (shares_.size() != threads + 1) return tile_block_.size() * thread / threads;
+  return std::min(shares_[thread], tile_block_.size());
+}
+
 /// By how many blocks to the left, right, below and above the nodes lie that a block's particles may touch.
 std::array<int, 4> Grid::reach(const Block& b) const {
   const bool wide = shape_ != ShapeKind::linear;

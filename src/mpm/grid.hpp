@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -121,6 +122,9 @@ class Grid {
   std::size_t scattered() const { return scattered_; }
   std::size_t listed() const { return index_.size(); }
 
+  /// Which tiles each thread has in its cache: those of the pieces of strips from shares[n] on, for thread n.
+  void share_tiles(std::span<const std::size_t> shares);
+
   /// Whether some particle of a tile is no longer in the cells that the tile was made for.
   bool has_left(std::size_t tile, const std::vector<Body>& bodies) const;
 
@@ -201,6 +205,7 @@ class Grid {
   std::int32_t destination(const Mover& mover) const;
   bool blocks_serve();
   std::vector<Block> blocks_after_moves() const;
+  std::size_t first_tile_of(std::size_t thread, std::size_t threads) const;
   void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
                           ThreadTeam& team);
   void merge_list(std::size_t list, const Particles& p);
@@ -215,6 +220,7 @@ class Grid {
   std::vector<std::int32_t> tile_block_;  // tile -> block
   Strips strips_;
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
+  std::vector<std::size_t> shares_;            // first tile of each thread's
   std::vector<Moved> moved_;                   // by tile, since the lists were made
   std::size_t scattered_ = 0;
   std::vector<std::int32_t> home_;              // scratch: block of each particle

@@ -168,10 +168,14 @@ void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::
     return a.list != b.list ? a.list < b.list : a.identity < b.identity;
   });
   scattered_of_tile_.resize(tile_block_.size());
-  team.for_each_chunk(tile_block_.size(), [&](std::size_t tile) {
-    for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
-    scattered_of_tile_[tile] = scattered_in(tile);
-    moved_[tile].clear();
+  const auto threads = static_cast<std::size_t>(team.size());
+  team.on_each_thread([&](std::size_t thread) {
+    const std::size_t last = first_tile_of(thread + 1, threads);
+    for (std::size_t tile = first_tile_of(thread, threads); tile < last; ++tile) {
+      for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
+      scattered_of_tile_[tile] = scattered_in(tile);
+      moved_[tile].clear();
+    }
   });
   scattered_ = std::accumulate(scattered_of_tile_.begin(), scattered_of_tile_.end(), std::size_t{0});
 }

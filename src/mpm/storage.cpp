@@ -88,12 +88,12 @@ void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team) {
   const std::span<Part> all_parts = parts;
   const std::span<const std::span<std::uint32_t>> all_lists = list;
   const std::span<const std::uint32_t> all_places = places;
-  const auto first_of = [&](std::size_t part) { return tile_block_.size() * part / count * body_count_; };
-  team.for_each_chunk(count, [&](std::size_t n) {
-    const std::size_t first = first_of(n), size = first_of(n + 1) - first;
+  team.on_each_thread([&](std::size_t n) {
+    const std::size_t first = first_tile_of(n, count) * body_count_,
+                      size = first_tile_of(n + 1, count) * body_count_ - first;
     all_parts[n].collect(bodies, all_lists.subspan(first, size), all_places.subspan(first, size));
   });
-  team.for_each_chunk(count, [&](std::size_t n) { all_parts[n].place(bodies); });
+  team.on_each_thread([&](std::size_t n) { all_parts[n].place(bodies); });
   scattered_ = 0;
 }
 

@@ -34,6 +34,7 @@ void sweep(System& system, std::span<const Pass> passes) {
       piece.for_tiles([pass](std::size_t tile) { pass->tile(*pass, tile); });
   };
   system.wave.run(*system.team, strips.first_pieces, count, particles_before, take);
+  system.grid.share_tiles(system.wave.shares());
   for (const Pass& pass : passes)
     if (pass.finish != nullptr) pass.finish(pass);
 }

@@ -35,6 +35,9 @@ class ThreadShares {
     return bounds_;
   }
 
+  /// Of the last division.
+  std::span<const std::size_t> bounds() const { return bounds_; }
+
   /// Takes into account how long the threads took for the shares of the last division, s.
   void learn(std::span<const double> seconds);
 

@@ -183,11 +183,13 @@ void Wave::Shared::make_ready(std::size_t stage, std::size_t line) {
 }
 
 void Wave::Shared::work(std::size_t thread) {
-  // Looks, of some 10 ns. Who helps at once brings a piece's data over for less than they cost; who never
-  // does leaves all cores to wait for one. And another process may want the processor.
-  constexpr int before_helping = 6000, before_yielding = 8000;
+  // Seconds. Another process may want the processor. Who helps at once brings a piece's data over for more
+  // than that saves, and has taken them from the thread that wants them again; who never does leaves all to
+  // wait for one that is held up.
+  constexpr double before_yielding = 20e-6, before_helping = 100e-6;
+  constexpr int looks_at_once = 64;  // some 5 ns each, a look at the clock takes longer
   Workload& own = workloads[thread];
-  Clock::time_point since = Clock::now();  // the thread has been at its share
+  Clock::time_point since = Clock::now();  // the thread has been at its share, or has waited
   for (int looks = 0; !stopped.load(std::memory_order_relaxed);) {
     if (const std::optional<Piece> piece = own.newest()) {
       if (looks != 0) since = Clock::now();
@@ -195,10 +197,16 @@ void Wave::Shared::work(std::size_t thread) {
       take(*piece, thread);
       continue;
     }
-    if (looks++ == 0) own.count_seconds(seconds_since(since));
-    if (looks > before_helping && help(thread)) continue;
+    if (looks == 0) {
+      const Clock::time_point now = Clock::now();
+      own.count_seconds(std::chrono::duration<double>(now - since).count());
+      since = now;
+    }
     if (is_over()) return;
-    if (looks > before_yielding) std::this_thread::yield();
+    if (++looks % looks_at_once != 0) continue;
+    const double waited = seconds_since(since);
+    if (waited > before_helping && help(thread)) continue;
+    if (waited > before_yielding) std::this_thread::yield();
   }
 }
 

@@ -41,6 +41,9 @@ class Wave {
         },
         &body);
   }
+  /// Where the shares of the threads began in the last run, and where the last of them ended; empty with one
+  /// thread.
+  std::span<const std::size_t> shares() const { return shares_.bounds(); }
 
  private:
   using Call = void (*)(void*, std::size_t stage, std::size_t piece);
