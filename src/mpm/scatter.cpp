@@ -228,9 +228,9 @@ void refresh_grid(System& system, Storage storage) {
     grid.relist(system.bodies, *system.team);
   system.grid_is_stale = false;
   if (storage == Storage::kept) return;
-  // Sorting costs about what scattered particles cost in a step, if all were.
+  // Sorting costs about a third of what scattered particles cost in a step, if all were.
   system.scattered_since_sorted += grid.scattered();
-  if (grid.scattered() != 0 && (anew || system.scattered_since_sorted >= grid.listed())) {
+  if (grid.scattered() != 0 && (anew || 3 * system.scattered_since_sorted >= grid.listed())) {
     grid.sort_storage(system.bodies, *system.team);
     system.scattered_since_sorted = 0;
   }
