@@ -183,11 +183,10 @@ void Wave::Shared::make_ready(std::size_t stage, std::size_t line) {
 }
 
 void Wave::Shared::work(std::size_t thread) {
-  // Seconds. Another process may want the processor. Who helps at once brings a piece's data over for more
-  // than that saves, and has taken them from the thread that wants them again; who never does leaves all to
-  // wait for one that is held up.
-  constexpr double before_yielding = 20e-6, before_helping = 100e-6;
-  constexpr int looks_at_once = 64;  // some 5 ns each, a look at the clock takes longer
+  // Who helps at once pays more for a piece's data, which are in another cache, than is saved, and the thread
+  // that owns them pays again; who never does leaves all to wait for one that is held up.
+  constexpr double patience = 15e-6;  // s
+  constexpr int looks_at_once = 64;   // some 5 ns each, a look at the clock takes longer
   Workload& own = workloads[thread];
   Clock::time_point since = Clock::now();  // the thread has been at its share, or has waited
   for (int looks = 0; !stopped.load(std::memory_order_relaxed);) {
@@ -204,9 +203,8 @@ void Wave::Shared::work(std::size_t thread) {
     }
     if (is_over()) return;
     if (++looks % looks_at_once != 0) continue;
-    const double waited = seconds_since(since);
-    if (waited > before_helping && help(thread)) continue;
-    if (waited > before_yielding) std::this_thread::yield();
+    if (seconds_since(since) < patience || help(thread)) continue;
+    std::this_thread::yield();  // another process may want the processor
   }
 }
 
