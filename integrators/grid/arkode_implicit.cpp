@@ -96,7 +96,10 @@ bool ArkodeImplicit::take_step(System& system, double phase_end, bool ends_at_ta
 
 bool ArkodeImplicit::advance(System& system, double target, StepObserver& observer) {
   if (!grid_) prepare(system);
-  solver_.reset();  // pivots and rates of convergence must not depend on what came before a checkpoint
+  // Neither the order in which particles are stored and energies summed, nor pivots and rates of convergence
+  // must depend on what came before a checkpoint.
+  system.grid_is_stale = true;
+  solver_.reset();
   bool goes_on = true;
   while (goes_on && system.time < target) {
     const double end = phase_end(system, target);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mpm/blocks.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -82,6 +83,28 @@ bool meets_boundary(const System& system, const Coasting& body) {
   return false;
 }
 
+CellBox box_of(const Block& b) {
+  const auto at = [&](std::size_t k) { return static_cast<double>(b.cells[k]); };
+  return {{at(0), at(2)}, {at(1), at(3)}};
+}
+
+/// A block with the cells that it would have if the lists were made anew: those of a block grow with its
+/// history, which must not decide when a body wakes.
+Block as_made_anew(const System& system, const Block& b) {
+  std::optional<Block> made;
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const auto [begin, end] = system.grid.particles(static_cast<std::size_t>(b.tile), n);
+    const Particles& p = system.bodies[n].particles;
+    for (const std::uint32_t* at = begin; at != end; ++at) {
+      const std::int64_t i = cell_of(p.position[0][*at] * (1.0 / system.cell)),
+                         j = cell_of(p.position[1][*at] * (1.0 / system.cell));
+      if (!made) made = block_at(i, j);
+      widen(*made, i, j);
+    }
+  }
+  return made.value_or(b);
+}
+
 bool meets_another(const System& system, const Body& body) {
   const double cell = system.cell;
   const CellBox reach = neighbourhood(cells_of(*body.coasting, cell), system.grid.shape());
@@ -89,11 +112,9 @@ bool meets_another(const System& system, const Body& body) {
     if (&other != &body && other.coasting && other.coasting->velocity != body.coasting->velocity &&
         overlap(reach, cells_of(*other.coasting, cell)))
       return true;
-  for (const Block& b : system.grid.blocks()) {
-    const auto at = [&](std::size_t k) { return static_cast<double>(b.cells[k]); };
-    if (b.tile >= 0 && overlap(reach, {{at(0), at(2)}, {at(1), at(3)}})) return true;
-  }
-  return false;
+  return std::any_of(system.grid.blocks().begin(), system.grid.blocks().end(), [&](const Block& b) {
+    return b.tile >= 0 && overlap(reach, box_of(b)) && overlap(reach, box_of(as_made_anew(system, b)));
+  });
 }
 
 }  // namespace

@@ -107,8 +107,8 @@ class Grid {
   /// particles are stored. Throws ComputationError for positions that are not finite or too far away (2^31
   /// cells).
   void rebuild(const std::vector<Body>& bodies);
-  /// The same lists as rebuild, for the cost of the particles that have left since. Throws as rebuild; the
-  /// lists are void then.
+  /// The same lists as rebuild, for the cost of the particles that have left since, as note_moved found: they
+  /// must not have moved again. Throws as rebuild; the lists are void then.
   void relist(const std::vector<Body>& bodies, ThreadTeam& team);
   /// To be called once the particles of a tile have moved, by one thread for each tile. may_have_left: some
   /// particle may be out of the cells that the tile was made for; these are looked for at once, while their
@@ -116,8 +116,11 @@ class Grid {
   void note_moved(std::size_t tile, const std::vector<Body>& bodies, bool may_have_left);
   bool some_left() const;
 
-  /// Moves the particles of all bodies in memory so that those of a block lie one behind the other.
-  void sort_storage(std::vector<Body>& bodies, ThreadTeam& team);
+  /// Moves the particles of all bodies in memory so that those of a block lie one behind the other. parts: by
+  /// how many of the team's threads, each with a range of tiles; particles that change ranges are held twice
+  /// meanwhile. Out of memory, particles are as before and the lists void. (Not between note_moved and
+  /// relist.)
+  void sort_storage(std::vector<Body>& bodies, ThreadTeam& team, std::size_t parts);
   /// Particles in chunks that lie otherwise, and all particles.
   std::size_t scattered() const { return scattered_; }
   std::size_t listed() const { return index_.size(); }
@@ -178,8 +181,11 @@ class Grid {
   /// What has become of the particles of a tile.
   struct alignas(64) Moved {
     std::vector<Mover> movers;
-    bool wider = false;  ///< the cells of the block have been widened
+    bool wider = false;  ///< the cells of the block have been widened since the lists were made
     bool lost = false;   ///< some position is no cell's
+    void forget_movers() {
+      if (some()) movers.clear(), lost = false;
+    }
     void clear() {
       if (some()) movers.clear(), wider = lost = false;
     }
@@ -221,7 +227,7 @@ class Grid {
   Strips strips_;
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
   std::vector<std::size_t> shares_;            // first tile of each thread's
-  std::vector<Moved> moved_;                   // by tile, since the lists were made
+  std::vector<Moved> moved_;                   // by tile
   std::size_t scattered_ = 0;
   std::vector<std::int32_t> home_;              // scratch: block of each particle
   std::vector<std::uint32_t> place_;            // scratch: place of each identity

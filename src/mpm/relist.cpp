@@ -23,7 +23,7 @@ bool Grid::some_left() const {
 }
 
 void Grid::note_moved(std::size_t tile, const std::vector<Body>& bodies, bool may_have_left) {
-  moved_[tile].clear();
+  moved_[tile].forget_movers();
   if (may_have_left) find_movers(tile, bodies);
 }
 
@@ -65,7 +65,12 @@ void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
   for (const Moved& tile : moved_) movers_.insert(movers_.end(), tile.movers.begin(), tile.movers.end());
   std::vector<std::int32_t> rank(tile_block_.size());  // old tile -> new tile; -1: holds no particle any more
   std::iota(rank.begin(), rank.end(), 0);
-  if (!blocks_serve()) {
+  const bool serve = blocks_serve();
+  if (serve && movers_.empty()) {
+    for (Moved& tile : moved_) tile.clear();
+    return;
+  }
+  if (!serve) {
     const std::vector<Block> old(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(rank.size()));
     set_blocks(blocks_after_moves());
     for (std::size_t tile = 0; tile < old.size(); ++tile)

@@ -226,14 +226,15 @@ void refresh_grid(System& system, Storage storage) {
     grid.rebuild(system.bodies);
   else if (grid.some_left())
     grid.relist(system.bodies, *system.team);
-  system.grid_is_stale = false;
-  if (storage == Storage::kept) return;
-  // Sorting costs about a third of what scattered particles cost in a step, if all were.
-  system.scattered_since_sorted += grid.scattered();
-  if (grid.scattered() != 0 && (anew || 3 * system.scattered_since_sorted >= grid.listed())) {
-    grid.sort_storage(system.bodies, *system.team);
+  // Sorting costs about a third of what scattered particles cost in a step, if all were. Lists made anew come
+  // with storage that does not depend on the history either.
+  if (storage == Storage::sorted) system.scattered_since_sorted += grid.scattered();
+  if (storage == Storage::sorted && (anew || 3 * system.scattered_since_sorted >= grid.listed())) {
+    // Then all particles may have to move, and one thread needs no copies of those that come from elsewhere.
+    grid.sort_storage(system.bodies, *system.team, anew ? 1 : static_cast<std::size_t>(system.team->size()));
     system.scattered_since_sorted = 0;
   }
+  system.grid_is_stale = false;
 }
 
 void refresh_grid_for_positions(System& system) {

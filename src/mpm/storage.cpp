@@ -10,6 +10,14 @@
 namespace vitrum::mpm {
 namespace {
 
+/// Room for a column of the calling thread's part.
+template <class T>
+T* room_for(std::size_t size) {
+  static thread_local std::vector<T> room;
+  if (room.size() < size) room.resize(size);
+  return room.data();
+}
+
 /// What one thread puts into order: the particles of some tiles, which it is the one to work with.
 class Part {
  public:
@@ -18,7 +26,8 @@ class Part {
   /// are about to overwrite.
   void collect(const std::vector<Body>& bodies, std::span<const std::span<std::uint32_t>> lists,
                std::span<const std::uint32_t> places);
-  /// Puts the particles at their new places. All parts must have been collected.
+  /// Puts the particles at their new places, on the same thread. All parts must have been collected. Throws
+  /// nothing: the particles would be torn.
   void place(std::vector<Body>& bodies) const;
 
  private:
@@ -46,11 +55,13 @@ void Part::collect(const std::vector<Body>& bodies, std::span<const std::span<st
     const auto begin = static_cast<std::uint32_t>(s.begin), size = static_cast<std::uint32_t>(s.from.size());
     for (std::uint32_t k = 0; k < size; ++k)
       if (s.from[k] - begin >= size) s.foreign.push_back(k);  // (places before wrap around)
+    s.values.reserve(s.foreign.size() * (10 + variable_count));
     for_each_column(bodies[body].particles, [&](const auto& column) {
       for (const std::uint32_t k : s.foreign)
         if (!column.empty()) s.values.push_back(static_cast<double>(column[s.from[k]]));
     });
     for (const std::uint32_t k : s.foreign) s.from[k] = begin;  // any of the part's
+    room_for<double>(size), room_for<std::uint32_t>(size);
   }
 }
 
@@ -59,11 +70,9 @@ void Part::place(std::vector<Body>& bodies) const {
     const Stretch& s = stretches_[body];
     const double* value = s.values.data();
     for_each_column(bodies[body].particles, [&]<class T>(std::vector<T>& column) {
-      static thread_local std::vector<T> room;
       if (column.empty()) return;
       const std::size_t size = s.from.size();
-      if (room.size() < size) room.resize(size);
-      T* const moved = room.data();
+      T* const moved = room_for<T>(size);
       for (std::size_t k = 0; k < size; ++k) moved[k] = column[s.from[k]];
       for (const std::uint32_t k : s.foreign) moved[k] = static_cast<T>(*value++);
       std::copy(moved, moved + size, column.data() + s.begin);
@@ -73,8 +82,8 @@ void Part::place(std::vector<Body>& bodies) const {
 
 }  // namespace
 
-void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team) {
-  const std::size_t lists = offset_.size() - 1, count = static_cast<std::size_t>(team.size());
+void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team, std::size_t count) {
+  const std::size_t lists = offset_.size() - 1;
   static thread_local std::vector<Part> parts;  // of the calling thread; workers write to them
   static thread_local std::vector<std::span<std::uint32_t>> list;
   static thread_local std::vector<std::uint32_t> places;
@@ -89,11 +98,14 @@ void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team) {
   const std::span<const std::span<std::uint32_t>> all_lists = list;
   const std::span<const std::uint32_t> all_places = places;
   team.on_each_thread([&](std::size_t n) {
+    if (n >= count) return;
     const std::size_t first = first_tile_of(n, count) * body_count_,
                       size = first_tile_of(n + 1, count) * body_count_ - first;
     all_parts[n].collect(bodies, all_lists.subspan(first, size), all_places.subspan(first, size));
   });
-  team.on_each_thread([&](std::size_t n) { all_parts[n].place(bodies); });
+  team.on_each_thread([&](std::size_t n) {
+    if (n < count) all_parts[n].place(bodies);
+  });
   scattered_ = 0;
 }
 

@@ -4,8 +4,8 @@
 namespace vitrum::mpm {
 
 /// Calls call(column) for all that particles keep from step to step, in a fixed order.
-template <class ParticleColumns, class Call>
-void for_each_column(ParticleColumns& p, Call&& call) {
+template <class AnyParticles, class Call>
+void for_each_column(AnyParticles& p, Call&& call) {
   const auto all = [&](auto& columns) {
     for (auto& column : columns) call(column);
   };

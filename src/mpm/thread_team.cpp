@@ -97,6 +97,7 @@ void ThreadTeam::share_out(std::size_t chunks) {
 }
 
 void ThreadTeam::run(Call call, void* context) {
+  if (workers_.empty()) return call(context, 0);
   call_ = call;
   context_ = context;
   busy_ = workers_.size();

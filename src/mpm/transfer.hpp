@@ -7,13 +7,13 @@
 #include "mpm/trial.hpp"
 
 /// The operators between particles and grid, shared by every integrator of the momentum equations. Results do
-/// not depend on the number of threads: each block sums its own particles in order of storage, and blocks are
+/// not depend on the number of threads: each block sums its own particles by rising identity, and blocks are
 /// combined in geometric order.
 namespace vitrum::mpm {
 
 /// Whether particles may change their places in memory: not while an integrator holds arrays of its own.
 enum class Storage { kept, sorted };
-/// Sorts the particles into blocks anew when some particle has left the cells its block was made for.
+/// Brings the lists of particles up to date when some particle has left the cells its block was made for.
 void refresh_grid(System& system, Storage storage = Storage::kept);
 /// The same for positions that no operator has moved (those of a trial).
 void refresh_grid_for_positions(System& system);

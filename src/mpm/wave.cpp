@@ -82,12 +82,11 @@ class alignas(64) Workload {
   std::size_t first_ = 0;
   bool downwards_ = false;
   std::atomic<bool> some_{false};
-  std::atomic<std::size_t> over_{0};
+  alignas(64) std::atomic<std::size_t> over_{0};  // looked at by those who wait
   std::atomic<double> seconds_{0.0};
 };
 
-/// By stage, the pieces around a line that must be done before. Lines that threads far from each other work
-/// on share no cache line.
+/// By stage, the pieces around a line that must be done before. No two lines share a cache line.
 struct alignas(64) Awaited {
   std::array<std::atomic<std::uint32_t>, Wave::most_stages> pieces;
 };
@@ -185,18 +184,20 @@ void Wave::Shared::make_ready(std::size_t stage, std::size_t line) {
 void Wave::Shared::work(std::size_t thread) {
   // Who helps at once pays more for a piece's data, which are in another cache, than is saved, and the thread
   // that owns them pays again; who never does leaves all to wait for one that is held up.
-  constexpr double patience = 15e-6;  // s
-  constexpr int looks_at_once = 64;   // some 5 ns each, a look at the clock takes longer
+  constexpr double patience = 15e-6;      // s
+  constexpr unsigned looks_at_once = 64;  // some 5 ns each, a look at the clock takes longer
   Workload& own = workloads[thread];
   Clock::time_point since = Clock::now();  // the thread has been at its share, or has waited
-  for (int looks = 0; !stopped.load(std::memory_order_relaxed);) {
+  bool waits = false;
+  for (unsigned looks = 0; !stopped.load(std::memory_order_relaxed);) {
     if (const std::optional<Piece> piece = own.newest()) {
-      if (looks != 0) since = Clock::now();
-      looks = 0;
+      if (waits) since = Clock::now();
+      waits = false;
       take(*piece, thread);
       continue;
     }
-    if (looks == 0) {
+    if (!waits) {
+      waits = true;
       const Clock::time_point now = Clock::now();
       own.count_seconds(std::chrono::duration<double>(now - since).count());
       since = now;

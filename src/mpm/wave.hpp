@@ -31,8 +31,11 @@ class Wave {
   template <class WorkBefore, class Body>
   void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages,
            const WorkBefore& work_before, Body&& body) {
-    if (lines.size() < 2) return;
-    if (team.size() == 1) return run_alone(lines, stages, body);
+    if (lines.size() < 2 || team.size() == 1) {
+      shares_.clear();
+      if (lines.size() >= 2) run_alone(lines, stages, body);
+      return;
+    }
     const auto shares = shares_.divide(static_cast<std::size_t>(team.size()), lines.back(), work_before);
     run_together(
         team, lines, shares, stages,
@@ -41,8 +44,8 @@ class Wave {
         },
         &body);
   }
-  /// Where the shares of the threads began in the last run, and where the last of them ended; empty with one
-  /// thread.
+  /// Where the shares of the threads began in the last run, and where the last of them ended; empty after
+  /// runs of one thread or of no lines.
   std::span<const std::size_t> shares() const { return shares_.bounds(); }
 
  private:

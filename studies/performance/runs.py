@@ -1,4 +1,5 @@
 """Timed runs of the program: medians of interleaved repetitions, so that a slow minute of the machine meets all of them."""
+import concurrent.futures
 import json
 import pathlib
 import statistics
@@ -9,15 +10,17 @@ import time
 
 here = pathlib.Path(__file__).resolve().parent
 bar = here / "elastic_bar.toml"
+disks = here / "colliding_disks.toml"
 reference = here.parent / "paper" / "reference.toml"
 step_of_80k, cell_of_80k = 3.095e-9, 0.078125e-3
 
 
 class Case:
-    """A scene with settings. threads: 0 lets the program choose."""
+    """A scene with settings. threads: 0 lets the program choose. processes: so many runs of it side by side."""
 
-    def __init__(self, name, scene, settings=(), threads=1, fields=False):
+    def __init__(self, name, scene, settings=(), threads=1, fields=False, processes=1):
         self.name, self.scene, self.settings, self.threads, self.fields = name, scene, list(settings), threads, fields
+        self.processes = processes
 
 
 def bar_settings(cell, steps):
@@ -26,7 +29,21 @@ def bar_settings(cell, steps):
     return [f"space.cell={cell!r}", f"integrator.step={step!r}", f"time.end={step * steps!r}"]
 
 
+def disks_settings(cells_per_metre, steps):
+    """The disks with so many cells a metre, for a number of steps of 0.2 cells of the wave speed."""
+    step = 0.2 / cells_per_metre
+    return [f"space.cell={1.0 / cells_per_metre!r}", f"integrator.step={step!r}", f"time.end={step * steps!r}"]
+
+
 def once(program, case):
+    """What all processes of a case did: the longest time (s), all particles, steps, and the largest memory."""
+    with concurrent.futures.ThreadPoolExecutor(case.processes) as pool:
+        done = list(pool.map(lambda _: run(program, case), range(case.processes)))
+    return {"seconds": max(d["seconds"] for d in done), "particles": sum(d["particles"] for d in done), "steps": done[0]["steps"],
+            "memory": max(d["memory"] for d in done)}
+
+
+def run(program, case):
     """One run: seconds of its time loop, particles, steps, and the largest memory of its process (bytes)."""
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "run", case.scene, "--out", folder, "--quiet"]
