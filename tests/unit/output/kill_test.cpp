@@ -1,6 +1,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <random>
 
@@ -34,12 +35,23 @@ RunHeader header_of_many() {
   }
 }
 
+useconds_t microseconds_of_outputs(std::size_t count, ResultFile::Publishing publishing) {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), header_of_many(), publishing);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t s = 0; s < count; ++s) result.append(sample_frame(s, particles));
+  const auto taken = std::chrono::steady_clock::now() - start;
+  return static_cast<useconds_t>(std::chrono::duration_cast<std::chrono::microseconds>(taken).count());
+}
+
 }  // namespace
 
 TEST_CASE("A kill at any moment leaves a result whose outputs are complete", "[output]") {
   const auto publishing = GENERATE(ResultFile::Publishing::exchange, ResultFile::Publishing::replace);
   std::mt19937 random(20260131);
-  std::uniform_int_distribution<useconds_t> delay(0, 60000);
+  // Up to about the time of four outputs, however slow machine and build are.
+  std::uniform_int_distribution<useconds_t> delay(
+      0, std::max<useconds_t>(60000, microseconds_of_outputs(4, publishing)));
   std::size_t most = 0;
   for (int round = 0; round < 20; ++round) {
     const TemporaryDirectory directory;
