@@ -48,13 +48,9 @@ class alignas(64) Workload {
     some_.store(true, std::memory_order_relaxed);
   }
   /// For the thread itself: it goes on with what it has just made ready.
-  std::optional<Piece> newest() {
-    return take([this]() -> Ready& { return ready_.back(); }, [this] { ready_.pop_back(); }, !downwards_);
-  }
+  std::optional<Piece> newest() { return take(true); }
   /// For those who help: what the thread will come to last.
-  std::optional<Piece> oldest() {
-    return take([this]() -> Ready& { return ready_[first_]; }, [this] { ++first_; }, downwards_);
-  }
+  std::optional<Piece> oldest() { return take(false); }
 
   /// Pieces that the thread has taken through their last stage.
   std::size_t over() const { return over_.load(std::memory_order_acquire); }
@@ -65,14 +61,19 @@ class alignas(64) Workload {
   void count_seconds(double more) { seconds_.fetch_add(more, std::memory_order_relaxed); }
 
  private:
-  template <class Which, class Drop>
-  std::optional<Piece> take(Which&& which, Drop&& drop, bool first) {
+  /// newest: the newest of what is ready, from the end where the thread is; else the oldest, from the other.
+  std::optional<Piece> take(bool newest) {
     if (!some_.load(std::memory_order_relaxed)) return {};  // (a look, not a promise)
     const std::lock_guard lock(mutex_);
     if (first_ == ready_.size()) return {};
-    Ready& ready = which();
-    const Piece piece{ready.stage, first ? ready.begin++ : --ready.end};
-    if (ready.begin == ready.end) drop();
+    Ready& ready = newest ? ready_.back() : ready_[first_];
+    const Piece piece{ready.stage, newest != downwards_ ? ready.begin++ : --ready.end};
+    if (ready.begin == ready.end) {
+      if (newest)
+        ready_.pop_back();
+      else
+        ++first_;
+    }
     some_.store(first_ != ready_.size(), std::memory_order_relaxed);
     return piece;
   }

@@ -134,7 +134,7 @@ def memory_exponent(timings):
 
 def growth(program, repetitions, quick):
     cells = [0.625e-3, 0.3125e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.0390625e-3, 0.01953125e-3]
-    steps = {cell: max(20, min(4000, int(16e6 * (cell / 0.625e-3) ** 2 / 1280))) if not quick else 20 for cell in cells}
+    steps = {cell: max(20, min(4000, int(4e6 * (cell / 0.625e-3) ** 2 / 1280))) if not quick else 20 for cell in cells}
     sizes = runs.measure(program, [runs.Case(f"{cell}", runs.bar, runs.bar_settings(cell, steps[cell])) for cell in cells], repetitions)
     rows = [(t.particles, f"{t.rate:.1f}", percent(t.spread), f"{1e6 * t.median / t.steps:.0f}", f"{t.memory / 1e6:.0f}") for t in sizes.values()]
     particles = [t.particles for t in sizes.values()]
