@@ -99,6 +99,11 @@ class CommandLineTest(unittest.TestCase):
             self.assertTrue(lines[-1], f"ended too early: {''.join(lines)}")
         return lines
 
+    def wait_for_line(self, process, line):
+        """Until the program writes `line` on standard error."""
+        while (read := process.stderr.readline()) != line:
+            self.assertTrue(read, f"ended without saying {line!r}")
+
     def assert_completed_outputs(self, out, whole):
         """Whatever happened to the run in `out`, its outputs so far can be read and are those of the run `whole`, and what it
         tells of energies is what that told. The number of outputs; None: it came to nothing."""

@@ -57,12 +57,10 @@ class Signals(CommandLineTest):
     @unittest.skipIf(preload is None, "VITRUM_PRELOAD is not set")
     def test_a_second_interrupt_ends_at_once(self):
         """The run hangs in a call to the file system: nothing but that helps."""
-        log, out = self.folder / "calls", self.folder / "out"
-        self.vitrum("run", impact, "--out", self.folder / "count", "--quiet", *long, env=preloaded(FAULT_LOG=log))
-        third = [n for n, name in enumerate(log.read_text().split(), 1) if name == "renameat2"][2]
-        process = self.start("run", impact, "--out", out, *long, env=preloaded(FAULT="STALL", FAULT_CALL=third))
-        self.wait_for_outputs(process, 2)
-        time.sleep(0.3)
+        out = self.folder / "out"
+        third = preloaded(FAULT="STALL", FAULT_NAME="renameat2", FAULT_CALL=3)  # the third output's publication
+        process = self.start("run", impact, "--out", out, *long, env=third)
+        self.wait_for_line(process, "stalled\n")
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGTERM)
         time.sleep(0.7)

@@ -1,8 +1,9 @@
 // Preloaded before the C library: lets one call that writes to a file system fail, or kills the process amid
 // it.
 //   FAULT_CALL=N      the N-th such call, from 1; standard streams do not count
+//   FAULT_NAME=NAME   only calls of this name count
 //   FAULT=KILL        kill -9; a write is done by half before
-//   FAULT=STALL       the call takes for ever
+//   FAULT=STALL       the call takes for ever; standard error tells when it begins
 //   FAULT=NUMBER      the call fails with this errno
 //   FAULT_LASTS=1     so do all later calls that take space
 //   FAULT_LOG=FILE    the names of all such calls, a line each, are left there at the end
@@ -30,7 +31,7 @@ const char* setting(const char* name, const char* otherwise) {
 }
 
 const long chosen = std::atol(setting("FAULT_CALL", "0"));
-const std::string fault = setting("FAULT", "");
+const std::string fault = setting("FAULT", ""), only = setting("FAULT_NAME", "");
 const bool kills = fault == "KILL", stalls = fault == "STALL", lasts = *setting("FAULT_LASTS", "") != '\0';
 const int reason = std::atoi(fault.c_str());
 std::atomic<long> calls = 0;
@@ -50,6 +51,7 @@ struct Log {
 /// Counts a call; whether it is to fail, with errno set. amid: what to do before the process is killed.
 template <class Amid>
 bool fails(const char* name, bool takes_space, Amid&& amid) {
+  if (!only.empty() && only != name) return false;
   const long call = ++calls;
   log_.names.append(name).append("\n");
   if (chosen == 0 || call < chosen || (call > chosen && !(lasts && takes_space))) return false;
@@ -57,6 +59,7 @@ bool fails(const char* name, bool takes_space, Amid&& amid) {
     amid();
     kill(getpid(), SIGKILL);
   }
+  if (stalls) std::fputs("stalled\n", stderr);
   if (kills || stalls) wait_for_ever();
   errno = reason;
   return true;
