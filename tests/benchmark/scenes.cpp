@@ -46,7 +46,7 @@ void colliding_disks(benchmark::State& state) {
 /// Their steps differ: each size is followed over the same ones, whatever the number of threads.
 const bool followed = [] {
   for (const auto& [thousands, steps] :
-       std::initializer_list<std::pair<long, long>>{{1, 8000}, {20, 1500}, {80, 300}, {500, 40}})
+       std::initializer_list<std::pair<long, long>>{{1, 8000}, {20, 1500}, {80, 300}, {500, 160}})
     for (const long threads : {1L, 2L})
       benchmark::RegisterBenchmark("colliding_disks", colliding_disks)
           ->ArgNames({"thousand", "threads"})
