@@ -1,7 +1,6 @@
 #include "mpm/grid.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "mpm/blocks.hpp"
@@ -130,11 +129,22 @@ void Grid::keep_sums() {
   for (std::vector<double>& field : fields_) field.resize(blocks_.size() * block_nodes);
 }
 
-void Grid::provide_tile_data(std::size_t window) {
-  const std::size_t tiles = window == 0 ? tile_block_.size() : strips_.most_tiles_in(window);
-  const std::size_t room = std::bit_ceil(std::max<std::size_t>(tiles, 1));
-  tile_slot_ = room - 1;
-  tile_data_.resize(std::min(room, tile_block_.size()));
+void Grid::provide_tile_data(std::size_t strips) {
+  const std::size_t most = strips_.most_tiles_in(strips);
+  tile_place_.resize(tile_block_.size());
+  std::size_t places = 0;
+  for (std::size_t thread = 0; thread + 1 < shares_.size(); ++thread) {
+    const std::size_t first = shares_[thread], last = shares_[thread + 1],
+                      room = std::min(most, last - first);
+    for (std::size_t tile = first, place = 0; tile < last; ++tile) {
+      // (Other threads have this in their caches: it is not written without need.)
+      const auto at = static_cast<std::uint32_t>(places + place);
+      if (tile_place_[tile] != at) tile_place_[tile] = at;
+      if (++place == room) place = 0;
+    }
+    places += room;
+  }
+  tile_data_.resize(places);
 }
 
 void Grid::share_tiles(std::span<const std::size_t> shares) {

@@ -151,9 +151,9 @@ class Grid {
   /// Has room for momenta and forces from now on.
   void keep_sums();
   /// The data of a tile. Tiles may share it that a sweep does not need at a time (provide_tile_data).
-  TileData& tile_data(std::size_t tile) { return tile_data_[tile & tile_slot_]; }
-  /// Room for all tiles (window: 0), or for those of so many strips one after the other.
-  void provide_tile_data(std::size_t window);
+  TileData& tile_data(std::size_t tile) { return tile_data_[tile_place_[tile]]; }
+  /// Room for those tiles of each thread that lie in so many strips one after the other.
+  void provide_tile_data(std::size_t strips);
 
   std::int16_t constraint(std::size_t component, std::size_t node) const {
     return constraints_[component][node];
@@ -241,7 +241,7 @@ class Grid {
   std::array<std::vector<std::int16_t>, 2> constraints_;
   bool keeps_sums_ = false;
   std::vector<TileData> tile_data_;
-  std::size_t tile_slot_ = 0;  // mask: tile -> its place in tile_data_
+  std::vector<std::uint32_t> tile_place_;  // of each tile, in tile_data_
 };
 
 }  // namespace vitrum::mpm

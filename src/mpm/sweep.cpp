@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -5,6 +6,19 @@
 #include "mpm/system.hpp"
 
 namespace vitrum::mpm {
+namespace {
+
+/// How many strips a thread has the tile data of at once: as many as may lie in its cache, beside particles
+/// and nodes. (Fewer cost more: the ends of strips are then waited for.)
+std::size_t strips_at_once(const System& system, std::size_t stages) {
+  constexpr std::size_t bytes = 512 * 1024;
+  const std::size_t fewest = Wave::fewest_at_once(stages);
+  if (system.team->size() == 1) return fewest;
+  const std::size_t tiles = std::max<std::size_t>(system.grid.strips().most_tiles_in(1), 1);
+  return std::max(fewest, bytes / (tiles * sizeof(TileData)));
+}
+
+}  // namespace
 
 void sweep(System& system, std::span<const Pass> passes) {
   struct Stage {
@@ -18,13 +32,14 @@ void sweep(System& system, std::span<const Pass> passes) {
     stages[count++] = {&pass, false};
     if (pass.block != nullptr) stages[count++] = {&pass, true};
   }
-  // One thread is done with a strip's tile data once the wave's end has passed it.
   const Strips& strips = system.grid.strips();
-  system.grid.provide_tile_data(system.team->size() == 1 ? count + 1 : 0);
   const auto particles_before = [&](std::size_t n) {
     return n == strips.pieces.size() ? system.grid.listed()
                                      : system.grid.listed_before(strips.pieces[n].first_tile);
   };
+  system.grid.share_tiles(system.wave.share_out(*system.team, strips.first_pieces, particles_before));
+  const std::size_t at_once = strips_at_once(system, count);
+  system.grid.provide_tile_data(at_once);
   auto take = [&](std::size_t stage, std::size_t n) {
     const auto [pass, of_blocks] = stages[stage];
     const Strips::Piece& piece = strips.pieces[n];
@@ -33,8 +48,7 @@ void sweep(System& system, std::span<const Pass> passes) {
     else
       piece.for_tiles([pass](std::size_t tile) { pass->tile(*pass, tile); });
   };
-  system.wave.run(*system.team, strips.first_pieces, count, particles_before, take);
-  system.grid.share_tiles(system.wave.shares());
+  system.wave.run(*system.team, strips.first_pieces, count, at_once, take);
   for (const Pass& pass : passes)
     if (pass.finish != nullptr) pass.finish(pass);
 }

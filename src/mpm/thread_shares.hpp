@@ -35,9 +35,8 @@ class ThreadShares {
     return bounds_;
   }
 
-  /// Of the last division; empty after clear(), which keeps what has been learnt.
+  /// Of the last division.
   std::span<const std::size_t> bounds() const { return bounds_; }
-  void clear() { bounds_.clear(), work_.clear(); }
 
   /// Takes into account how long the threads took for the shares of the last division, s.
   void learn(std::span<const double> seconds);

@@ -31,20 +31,29 @@ struct Piece {
 /// What a thread has before it, and what it has behind it.
 class alignas(64) Workload {
  public:
-  /// Begins with the pieces of a share; downwards: with the last of them.
-  void start(bool downwards, std::size_t begin, std::size_t end) {
+  /// Begins with a share of the lines [first, last); downwards: with the last of them.
+  void start(bool downwards, std::size_t first, std::size_t last) {
     ready_.clear(), first_ = 0;  // (an exception may have left some)
     downwards_ = downwards;
+    lines_before_ = first, lines_ = last - first, lines_over_ = 0;
     some_ = false;
     over_ = 0;
     seconds_ = 0.0;
-    add({0, begin, end});
   }
-  void add(const Ready& ready) {
-    if (ready.begin == ready.end) return;
+  std::size_t lines() const { return lines_; }
+  /// The n-th line that the thread comes to.
+  std::size_t line(std::size_t n) const { return lines_before_ + (downwards_ ? lines_ - 1 - n : n); }
+  /// Calls next(n) for every line n that is over, in this order, once.
+  template <class IsOver, class Next>
+  void for_lines_over(const IsOver& is_over, const Next& next) {
+    const std::lock_guard lock(of_lines_);
+    for (; lines_over_ < lines_ && is_over(line(lines_over_)); ++lines_over_) next(lines_over_);
+  }
+  void add(const Ready& more) {
+    if (more.begin == more.end) return;
     const std::lock_guard lock(mutex_);
     if (first_ == ready_.size()) ready_.clear(), first_ = 0;
-    ready_.push_back(ready);
+    if (!prolong(more)) ready_.push_back(more);
     some_.store(true, std::memory_order_relaxed);
   }
   /// For the thread itself: it goes on with what it has just made ready.
@@ -61,6 +70,16 @@ class alignas(64) Workload {
   void count_seconds(double more) { seconds_.fetch_add(more, std::memory_order_relaxed); }
 
  private:
+  /// Pieces that continue a range are not newer than it: lines are begun in their order.
+  bool prolong(const Ready& more) {
+    for (std::size_t n = first_; n < ready_.size(); ++n) {
+      Ready& ready = ready_[n];
+      if (ready.stage != more.stage) continue;
+      if (!downwards_ && ready.end == more.begin) return ready.end = more.end, true;
+      if (downwards_ && ready.begin == more.end) return ready.begin = more.begin, true;
+    }
+    return false;
+  }
   /// newest: the newest of what is ready, from the end where the thread is; else the oldest, from the other.
   std::optional<Piece> take(bool newest) {
     if (!some_.load(std::memory_order_relaxed)) return {};  // (a look, not a promise)
@@ -82,21 +101,26 @@ class alignas(64) Workload {
   std::vector<Ready> ready_;  // from first_ on
   std::size_t first_ = 0;
   bool downwards_ = false;
+  std::size_t lines_before_ = 0, lines_ = 0;
+  std::mutex of_lines_;
+  std::size_t lines_over_ = 0;  // all before have been over, too
   std::atomic<bool> some_{false};
   alignas(64) std::atomic<std::size_t> over_{0};  // looked at by those who wait
   std::atomic<double> seconds_{0.0};
 };
 
-/// By stage, the pieces around a line that must be done before. No two lines share a cache line.
+/// By stage, the pieces around a line that must be done before; after the last stage, those before the line
+/// is over. No two lines share a cache line.
 struct alignas(64) Awaited {
-  std::array<std::atomic<std::uint32_t>, Wave::most_stages> pieces;
+  std::array<std::atomic<std::uint32_t>, Wave::most_stages + 1> pieces;
 };
 
 }  // namespace
 
 struct Wave::Shared {
   std::span<const std::size_t> lines, shares;
-  std::size_t count = 0, stages = 0;
+  std::size_t count = 0, stages = 0, at_once = 0;
+  bool bounded() const { return at_once < count; }
   Call call = nullptr;
   void* context = nullptr;
   std::vector<std::size_t> line_of;  // by piece
@@ -112,6 +136,8 @@ struct Wave::Shared {
   bool is_over() const;
   void finish(const Piece& piece, std::size_t thread);
   void make_ready(std::size_t stage, std::size_t line);
+  void add(std::size_t thread, std::size_t stage, std::size_t line);
+  void begin_lines(std::size_t thread);
   std::size_t before(std::size_t line) const { return line == 0 ? 0 : line - 1; }
   std::size_t after(std::size_t line) const { return line + 1 == count ? line : line + 1; }
 };
@@ -127,12 +153,16 @@ void Wave::Shared::prepare(std::size_t threads) {
     for (std::size_t piece = lines[line]; piece < lines[line + 1]; ++piece) line_of[piece] = line;
   if (awaited.size() < count) awaited = std::vector<Awaited>(count);
   for (std::size_t line = 0; line < count; ++line)
-    for (std::size_t stage = 1; stage < stages; ++stage)
+    for (std::size_t stage = 1; stage < stages + (bounded() ? 1 : 0); ++stage)
       awaited[line].pieces[stage].store(
           static_cast<std::uint32_t>(lines[after(line) + 1] - lines[before(line)]),
           std::memory_order_relaxed);
   if (workloads.size() != threads) workloads = std::vector<Workload>(threads);
-  for (std::size_t n = 0; n < threads; ++n) workloads[n].start(n % 2 == 1, shares[n], shares[n + 1]);
+  for (std::size_t n = 0; n < threads; ++n) {
+    const bool some = shares[n] < shares[n + 1];
+    workloads[n].start(n % 2 == 1, some ? line_of[shares[n]] : 0, some ? line_of[shares[n + 1] - 1] + 1 : 0);
+    for (std::size_t k = 0; k < std::min(at_once, workloads[n].lines()); ++k) add(n, 0, workloads[n].line(k));
+  }
   stopped = false;
 }
 
@@ -169,17 +199,37 @@ bool Wave::Shared::is_over() const {
 /// Makes ready what has waited for the piece as the last one.
 void Wave::Shared::finish(const Piece& done, std::size_t thread) {
   const std::size_t stage = done.stage + 1, of = line_of[done.piece];
-  if (stage == stages) return workloads[thread].count_over();
-  for (std::size_t line = before(of); line <= after(of); ++line)
+  for (std::size_t line = before(of); line <= after(of) && (stage < stages || bounded()); ++line)
     if (awaited[line].pieces[stage].fetch_sub(1, std::memory_order_acq_rel) == 1) make_ready(stage, line);
+  if (stage == stages) workloads[thread].count_over();
 }
 
 /// Every piece goes to the thread whose share it is in: its data are in that thread's cache.
 void Wave::Shared::make_ready(std::size_t stage, std::size_t line) {
-  const std::size_t begin = lines[line], end = lines[line + 1];
-  const auto first = std::upper_bound(shares.begin(), shares.end(), begin) - shares.begin() - 1;
-  for (auto n = static_cast<std::size_t>(first); n < workloads.size() && shares[n] < end; ++n)
-    workloads[n].add({stage, std::max(begin, shares[n]), std::min(end, shares[n + 1])});
+  const auto first = std::upper_bound(shares.begin(), shares.end(), lines[line]) - shares.begin() - 1;
+  for (auto n = static_cast<std::size_t>(first); n < workloads.size() && shares[n] < lines[line + 1]; ++n) {
+    if (stage < stages)
+      add(n, stage, line);
+    else
+      begin_lines(n);
+  }
+}
+
+/// Makes a stage of a line ready, as far as that is in the thread's share.
+void Wave::Shared::add(std::size_t thread, std::size_t stage, std::size_t line) {
+  workloads[thread].add(
+      {stage, std::max(lines[line], shares[thread]), std::min(lines[line + 1], shares[thread + 1])});
+}
+
+/// For every line that is over the thread may begin another one. In their order: where a neighbour is late, a
+/// line may be over before those between them.
+void Wave::Shared::begin_lines(std::size_t thread) {
+  Workload& workload = workloads[thread];
+  workload.for_lines_over(
+      [&](std::size_t line) { return awaited[line].pieces[stages].load(std::memory_order_acquire) == 0; },
+      [&](std::size_t n) {
+        if (n + at_once < workload.lines()) add(thread, 0, workload.line(n + at_once));
+      });
 }
 
 void Wave::Shared::work(std::size_t thread) {
@@ -210,13 +260,15 @@ void Wave::Shared::work(std::size_t thread) {
   }
 }
 
-void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines,
-                        std::span<const std::size_t> shares, std::size_t stages, Call call, void* context) {
+void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages,
+                        std::size_t at_once, Call call, void* context) {
   if (stages > most_stages) throw std::logic_error("a wave has at most eight stages");
+  if (at_once < fewest_at_once(stages)) throw std::logic_error("a wave must have more lines at once");
   if (stages == 0) return;
   if (!shared_) shared_ = std::make_unique<Shared>();
   Shared& shared = *shared_;
-  shared.lines = lines, shared.shares = shares, shared.count = lines.size() - 1, shared.stages = stages;
+  shared.lines = lines, shared.shares = shares_.bounds(), shared.count = lines.size() - 1;
+  shared.stages = stages, shared.at_once = std::min(at_once, shared.count);
   shared.call = call, shared.context = context;
   shared.prepare(static_cast<std::size_t>(team.size()));
   team.on_each_thread([&shared](std::size_t thread) { shared.work(thread); });

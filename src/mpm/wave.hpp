@@ -23,30 +23,37 @@ class Wave {
   Wave(Wave&&) noexcept;
   Wave& operator=(Wave&&) noexcept;
 
-  /// Calls body(stage, piece) for every stage in [0, stages) of every piece; returns when all are done.
-  /// lines: line n has the pieces [lines[n], lines[n + 1]), at least one; pieces may be taken by different
-  /// threads. work_before(piece): the work of all pieces before, for piece in [0, lines.back()]; never
-  /// falling, the shares of the threads follow it (thread_shares.hpp). An exception ends the wave early and
-  /// reaches the caller (of several, one does).
-  template <class WorkBefore, class Body>
-  void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages,
-           const WorkBefore& work_before, Body&& body) {
-    if (lines.size() < 2 || team.size() == 1) {
-      shares_.clear();
-      if (lines.size() >= 2) run_alone(lines, stages, body);
-      return;
-    }
-    const auto shares = shares_.divide(static_cast<std::size_t>(team.size()), lines.back(), work_before);
+  /// So many lines a thread must at least be able to have at once: one in each stage, and one whose neighbour
+  /// is in the last.
+  static constexpr std::size_t fewest_at_once(std::size_t stages) { return stages + 1; }
+
+  /// Divides the pieces among the threads of a team; thread n has [shares[n], shares[n + 1]). lines: line n
+  /// has the pieces [lines[n], lines[n + 1]), at least one; pieces may be taken by different threads.
+  /// work_before(piece): the work of all pieces before, for piece in [0, lines.back()]; never falling, the
+  /// shares follow it (thread_shares.hpp).
+  template <class WorkBefore>
+  std::span<const std::size_t> share_out(const ThreadTeam& team, std::span<const std::size_t> lines,
+                                         const WorkBefore& work_before) {
+    return shares_.divide(static_cast<std::size_t>(team.size()), lines.back(), work_before);
+  }
+
+  /// Calls body(stage, piece) for every stage in [0, stages) of every piece; returns when all are done. The
+  /// lines as they have been shared out to the same team before. at_once: of a thread's lines at most so
+  /// many, one beside the other, are between the beginning of their first stage and the time when they and
+  /// the lines beside them have all stages behind them; of a single thread's always the fewest. An exception
+  /// ends the wave early and reaches the caller (of several, one does).
+  template <class Body>
+  void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, std::size_t at_once,
+           Body&& body) {
+    if (lines.size() < 2) return;
+    if (team.size() == 1) return run_alone(lines, stages, body);
     run_together(
-        team, lines, shares, stages,
+        team, lines, stages, at_once,
         [](void* context, std::size_t stage, std::size_t piece) {
           (*static_cast<std::remove_reference_t<Body>*>(context))(stage, piece);
         },
         &body);
   }
-  /// Where the shares of the threads began in the last run, and where the last of them ended; empty after
-  /// runs of one thread or of no lines.
-  std::span<const std::size_t> shares() const { return shares_.bounds(); }
 
  private:
   using Call = void (*)(void*, std::size_t stage, std::size_t piece);
@@ -60,8 +67,8 @@ class Wave {
           for (std::size_t piece = lines[line]; piece < lines[line + 1]; ++piece) body(stage, piece);
   }
 
-  void run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::span<const std::size_t> shares,
-                    std::size_t stages, Call call, void* context);
+  void run_together(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages,
+                    std::size_t at_once, Call call, void* context);
 
   struct Shared;
   std::unique_ptr<Shared> shared_;  // only once several threads need it

@@ -123,8 +123,8 @@ TEST_CASE("Memory that runs out in a wave ends it, on any thread", "[memory]") {
       mpm::Wave wave;
       const test::FailingNew memory(failures, Failing::once, nowhere);
       try {
-        wave.run(
-            team, lines, 6, [](std::size_t piece) { return piece; }, [](std::size_t, std::size_t) {});
+        wave.share_out(team, lines, [](std::size_t piece) { return piece; });
+        wave.run(team, lines, 6, 7, [](std::size_t, std::size_t) {});
         fails = false;
       } catch (const std::bad_alloc&) {
       }

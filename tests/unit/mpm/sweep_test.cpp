@@ -1,4 +1,6 @@
 #include <cstdlib>
+#include <memory>
+#include <set>
 #include <vector>
 
 #include "integrators/grid/critical_step.hpp"
@@ -153,4 +155,32 @@ TEST_CASE("Passes taken as one wave give the bits of passes taken one by one, by
         }
         CHECK(apart->system.record.dissipated.plastic > 0.0);
       }
+}
+
+TEST_CASE("Tiles that share their data, where a thread's do not fit its cache, give the same bits", "[mpm]") {
+  MpmScene scene;
+  scene.geometry = "plane-strain", scene.cell = 1.0;
+  scene.tables = body("one", box({0.0, 0.0}, {200.0, 160.0}), "particles_per_cell = 1");
+  for (const char* shape : {"linear", "bspline2"}) {
+    scene.shape = shape;
+    std::vector<std::unique_ptr<MpmRun>> runs;
+    for (const int threads : {1, 2, 3, 4}) {
+      runs.push_back(std::make_unique<MpmRun>(scene, threads));
+      Random random(7);
+      for (auto& v : runs.back()->particles(0).velocity)
+        for (double& value : v) value = random.uniform(-1.0, 1.0);
+    }
+    take_passes_one_by_one(runs[0]->system, StepScheme::musl);
+    for (std::size_t n = 1; n < runs.size(); ++n) {
+      CAPTURE(shape, n);
+      take_wave(runs[n]->system, StepScheme::musl);
+      Grid& grid = runs[n]->system.grid;
+      std::set<const TileData*> data;
+      for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile) data.insert(&grid.tile_data(tile));
+      CHECK(data.size() < grid.tiles().size());
+      CHECK(runs[n]->particles(0).position == runs[0]->particles(0).position);
+      CHECK(runs[n]->particles(0).velocity == runs[0]->particles(0).velocity);
+      CHECK(runs[n]->particles(0).elastic_strain == runs[0]->particles(0).elastic_strain);
+    }
+  }
 }
