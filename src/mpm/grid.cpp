@@ -144,7 +144,7 @@ void Grid::provide_tile_data(std::size_t strips) {
     }
     places += room;
   }
-  tile_data_.resize(places);
+  if (tile_data_.size() < places) tile_data_.resize(places);
 }
 
 void Grid::share_tiles(std::span<const std::size_t> shares) {

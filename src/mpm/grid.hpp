@@ -152,7 +152,8 @@ class Grid {
   void keep_sums();
   /// The data of a tile. Tiles may share it that a sweep does not need at a time (provide_tile_data).
   TileData& tile_data(std::size_t tile) { return tile_data_[tile_place_[tile]]; }
-  /// Room for those tiles of each thread that lie in so many strips one after the other.
+  /// Room for those tiles of each thread that lie in so many strips one after the other; once the tiles as
+  /// they are have been shared.
   void provide_tile_data(std::size_t strips);
 
   std::int16_t constraint(std::size_t component, std::size_t node) const {

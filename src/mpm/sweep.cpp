@@ -8,14 +8,14 @@
 namespace vitrum::mpm {
 namespace {
 
-/// How many strips a thread has the tile data of at once: as many as may lie in its cache, beside particles
-/// and nodes. (Fewer cost more: the ends of strips are then waited for.)
+/// How many strips a thread has the tile data of at once. One of several: as many as may lie in its cache
+/// beside particles and nodes, and at least some for others to help with.
 std::size_t strips_at_once(const System& system, std::size_t stages) {
-  constexpr std::size_t bytes = 512 * 1024;
+  constexpr std::size_t bytes = 512 * 1024, to_help_with = 2;
   const std::size_t fewest = Wave::fewest_at_once(stages);
   if (system.team->size() == 1) return fewest;
   const std::size_t tiles = std::max<std::size_t>(system.grid.strips().most_tiles_in(1), 1);
-  return std::max(fewest, bytes / (tiles * sizeof(TileData)));
+  return std::max(fewest + to_help_with, bytes / (tiles * sizeof(TileData)));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ void sweep(System& system, std::span<const Pass> passes) {
   };
   system.grid.share_tiles(system.wave.share_out(*system.team, strips.first_pieces, particles_before));
   const std::size_t at_once = strips_at_once(system, count);
-  system.grid.provide_tile_data(at_once);
+  if (count != passes.size()) system.grid.provide_tile_data(at_once);  // some pass adds up tiles for blocks
   auto take = [&](std::size_t stage, std::size_t n) {
     const auto [pass, of_blocks] = stages[stage];
     const Strips::Piece& piece = strips.pieces[n];

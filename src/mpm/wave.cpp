@@ -58,7 +58,7 @@ class alignas(64) Workload {
   }
   /// For the thread itself: it goes on with what it has just made ready.
   std::optional<Piece> newest() { return take(true); }
-  /// For those who help: what the thread will come to last.
+  /// For those who help: what lies farthest before the thread.
   std::optional<Piece> oldest() { return take(false); }
 
   /// Pieces that the thread has taken through their last stage.
@@ -70,7 +70,8 @@ class alignas(64) Workload {
   void count_seconds(double more) { seconds_.fetch_add(more, std::memory_order_relaxed); }
 
  private:
-  /// Pieces that continue a range are not newer than it: lines are begun in their order.
+  /// Pieces that continue a range join it: what a thread has before it is then taken in the order of its
+  /// lines.
   bool prolong(const Ready& more) {
     for (std::size_t n = first_; n < ready_.size(); ++n) {
       Ready& ready = ready_[n];
@@ -264,6 +265,9 @@ void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines, st
                         std::size_t at_once, Call call, void* context) {
   if (stages > most_stages) throw std::logic_error("a wave has at most eight stages");
   if (at_once < fewest_at_once(stages)) throw std::logic_error("a wave must have more lines at once");
+  if (shares_.bounds().size() != static_cast<std::size_t>(team.size()) + 1 ||
+      shares_.bounds().back() != lines.back())
+    throw std::logic_error("these lines have not been shared out to this team");
   if (stages == 0) return;
   if (!shared_) shared_ = std::make_unique<Shared>();
   Shared& shared = *shared_;

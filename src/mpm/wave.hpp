@@ -38,10 +38,10 @@ class Wave {
   }
 
   /// Calls body(stage, piece) for every stage in [0, stages) of every piece; returns when all are done. The
-  /// lines as they have been shared out to the same team before. at_once: of a thread's lines at most so
-  /// many, one beside the other, are between the beginning of their first stage and the time when they and
-  /// the lines beside them have all stages behind them; of a single thread's always the fewest. An exception
-  /// ends the wave early and reaches the caller (of several, one does).
+  /// lines as they have been shared out to the same team before. at_once: of the (parts of) lines in a
+  /// thread's share at most so many, one beside the other, are between the beginning of their first stage and
+  /// the time when they and the lines beside them have all stages behind them; a single thread has always the
+  /// fewest. An exception ends the wave early and reaches the caller (of several, one does).
   template <class Body>
   void run(ThreadTeam& team, std::span<const std::size_t> lines, std::size_t stages, std::size_t at_once,
            Body&& body) {
