@@ -105,7 +105,7 @@ class Composite final : public Material {
   }
 
   // composite_batch.hpp
-  using Marks = std::array<std::int64_t, elastic_run>;
+  using Marks = std::array<double, elastic_run>;
   bool stays_elastic(const PointState& s, const SymmetricTensor& strain, double duration) const;
   bool mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
                       Marks& marks) const;

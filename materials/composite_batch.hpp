@@ -64,8 +64,9 @@ void Composite<D, Y, C>::respond(PointState& s, const SymmetricTensor& strain, d
 }
 
 /// Marks those of the particles [begin, end), at most elastic_run of them, whose increments meet an event or
-/// change an internal variable, and tells whether there are any: most increments do not, and need nothing but
-/// Hooke's law. Written to be vectorised.
+/// change an internal variable (1, else 0), and tells whether there are any: most increments do not, and need
+/// nothing but Hooke's law. Written to be vectorised, which the portable build can do with numbers, not with
+/// truth values.
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end,
                                         double duration, Marks& marks) const {
@@ -81,42 +82,45 @@ bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t be
   const std::size_t size = end - begin;
   double mean[elastic_run],
       power[elastic_run];  // strain where damage may grow, otherwise 0; its m-th power
-  std::int64_t any = 0;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < size; ++k) {
     const SymmetricTensor e0{a0[k], a1[k], a2[k], a3[k]},
         e1{a0[k] + d0[k], a1[k] + d1[k], a2[k] + d2[k], a3[k] + d3[k]};
     const double t0 = trace(e0), t1 = trace(e1);
-    const bool tension = (t0 > 0.0) | (t1 > 0.0), changes_side = tension & ((t0 < 0.0) | (t1 < 0.0));
-    bool mark = false;
-    if constexpr (C) mark |= effective_length[k] > 0.0;
-    if constexpr (D || Y == Yielding::drucker_prager) mark |= changes_side;
+    const double tension = std::max(t0 > 0.0 ? 1.0 : 0.0, t1 > 0.0 ? 1.0 : 0.0),
+                 pressure = std::max(t0 < 0.0 ? 1.0 : 0.0, t1 < 0.0 ? 1.0 : 0.0);
+    double mark = 0.0;
+    if constexpr (C) mark = effective_length[k] > 0.0 ? 1.0 : 0.0;
+    if constexpr (D || Y == Yielding::drucker_prager) mark = std::max(mark, tension * pressure);
     if constexpr (D) {
-      const bool grows = (t1 > t0) & tension;
-      mark |= grows & (t1 - t0 > 3.0 * duration * max_rate[k]);
-      mean[k] = grows ? t1 / 3.0 : 0.0;
+      const double grows = t1 > t0 ? tension : 0.0;
+      mark = std::max(mark, t1 - t0 > 3.0 * duration * max_rate[k] ? grows : 0.0);
+      mean[k] = grows > 0.0 ? t1 / 3.0 : 0.0;
       power[k] = 1.0;
     }
     if constexpr (has_yield) {
-      const Moduli moduli = secant_without_branches(tension ? 1.0 : -1.0, density[k]);
+      const Moduli moduli = secant_without_branches(tension, density[k]);
       if constexpr (Y == Yielding::von_mises)
-        mark |= !(von_mises_.yield_function(e1, moduli, plastic_strain[k]) <= 0.0);
+        mark = von_mises_.yield_function(e1, moduli, plastic_strain[k]) <= 0.0 ? mark : 1.0;
       else
-        mark |= !tension & !(drucker_prager_.yield_function(e1, moduli) <= 0.0);
+        mark = drucker_prager_.yield_function(e1, moduli) <= 0.0 ? mark : std::max(mark, 1.0 - tension);
     }
-    marks[k] = mark ? 1 : 0;
+    marks[k] = mark;
   }
   if constexpr (D) {
-    damage_.raise(mean, power, size);
+    const DamageLaw law = damage_;  // (which no store can change)
+    law.raise(mean, power, size);
 #pragma GCC ivdep
     for (std::size_t k = 0; k < size; ++k) {
-      const double rate = damage_.effective_rate(max_rate[k]),
-                   target = std::min(damage_.coefficient(rate) * power[k], crack_density_limit);
-      marks[k] |= target > density[k] ? 1 : 0;
+      const double rate = law.effective_rate(max_rate[k]),
+                   target = std::min(law.coefficient(rate) * power[k], crack_density_limit);
+      marks[k] = target > density[k] ? 1.0 : marks[k];
     }
   }
-  for (std::size_t k = 0; k < size; ++k) any |= marks[k];
-  return any != 0;
+  double any = 0.0;
+#pragma omp simd reduction(max : any)
+  for (std::size_t k = 0; k < size; ++k) any = std::max(any, marks[k]);
+  return any > 0.0;
 }
 
 /// Whether one increment stays elastic.
@@ -268,7 +272,7 @@ void Composite<D, Y, C>::respond(const ParticleColumns& p, std::size_t begin, st
     const std::size_t last = std::min(end, first + elastic_run);
     if (!mark_inelastic(p, first, last, duration, inelastic)) continue;
     for (std::size_t i = first; i < last; ++i) {
-      if (inelastic[i - first] == 0) continue;
+      if (inelastic[i - first] == 0.0) continue;
       load(p, i, s);
       stored += take_elastic(p, elastic_from, i);
       stored += take_inelastic(p, i, s, duration, integrator, point, report);

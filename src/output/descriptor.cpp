@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -44,10 +45,15 @@ void Descriptor::fail(std::string_view action, int reason) const {
   throw_file_error(path_, action, reason);
 }
 
-std::uint64_t Descriptor::size() const {
+FileVersion Descriptor::version() const {
   struct stat status {};
-  if (fstat(number_, &status) != 0) fail("tell the size", errno);
-  return static_cast<std::uint64_t>(status.st_size);
+  if (fstat(number_, &status) != 0) fail("tell size and time", errno);
+  return {status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size), status.st_mtim.tv_sec,
+          status.st_mtim.tv_nsec};
+}
+
+bool Descriptor::lock() {
+  return lock_file(number_, true);
 }
 
 void Descriptor::write(std::string_view text) {
@@ -67,6 +73,18 @@ void Descriptor::write_all_of(const Descriptor& source) {
   if (written < 0) fail(fmt::format("copy {} to it", source.path_.string()), errno);
 }
 
+void Descriptor::write_part_of(const Descriptor& source, const ByteRange& part) {
+  const std::string action = fmt::format("copy {} to it", source.path_.string());
+  auto from = static_cast<off_t>(part.begin);
+  const auto end = static_cast<off_t>(part.begin + part.size);
+  if (lseek(number_, from, SEEK_SET) < 0) fail(action, errno);
+  while (from < end) {
+    const ssize_t written = sendfile(number_, source.number_, &from, static_cast<std::size_t>(end - from));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(action, written < 0 ? errno : EIO);
+  }
+}
+
 void Descriptor::truncate(std::uint64_t bytes) {
   if (ftruncate(number_, static_cast<off_t>(bytes)) != 0) fail("shorten", errno);
 }
@@ -78,6 +96,10 @@ void Descriptor::sync() {
 
 void Descriptor::close() {
   if (::close(std::exchange(number_, -1)) != 0) fail("close", errno);
+}
+
+bool lock_file(int descriptor, bool exclusive) {
+  return flock(descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 }  // namespace vitrum::output

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/descriptor.hpp"
 #include "scene/input_error.hpp"
 
 namespace vitrum::output {
@@ -115,6 +116,8 @@ class Group {
   std::string label_;
 };
 
+struct FileRecord;
+
 /// An open HDF5 file. Files are created in the HDF5 1.10 format, whose metadata all carry checksums (in
 /// earlier ones the index of chunks does not).
 class File {
@@ -125,16 +128,19 @@ class File {
   static File open_to_write(const std::filesystem::path& path);
 
   const Group& root() const { return root_; }
+  ~File();
+  File(File&&) noexcept;
   /// Writes everything out and closes; the only way to learn that something could not be written (the disk is
-  /// full). The file may not be used afterwards.
-  void close();
+  /// full). Returns which bytes have been written since the file was opened, by rising place. The file may
+  /// not be used afterwards.
+  std::vector<ByteRange> close();
 
  private:
-  File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle);
+  File(const std::filesystem::path& path, std::unique_ptr<FileRecord> record, Handle handle);
   static File open(const std::filesystem::path& path, unsigned flags, const std::string& action);
 
   std::string path_;
-  std::unique_ptr<int> failure_;  ///< errno of the first write that failed, or 0; must outlive the handle
+  std::unique_ptr<FileRecord> record_;  ///< must outlive the handle
   Handle handle_;
   Group root_;
 };

@@ -24,7 +24,7 @@ namespace vitrum::output {
 namespace {
 
 struct Info {
-  int* failure;
+  FileRecord* record;
 };
 
 struct Unwritten {
@@ -35,14 +35,21 @@ struct Unwritten {
 /// An open file, as HDF5's drivers have it: their common part first.
 struct OpenFile : H5FD_t {
   int descriptor = -1;
-  int* failure = nullptr;
+  FileRecord* record = nullptr;
   dev_t device = 0;
   ino_t inode = 0;
   haddr_t allocated = 0, length = 0;
   std::vector<Unwritten> unwritten;  ///< in the order in which it should have been written
 
   void note(int reason) {
-    if (*failure == 0) *failure = reason;
+    if (record->failure == 0) record->failure = reason;
+  }
+  void note_written(const ByteRange& range) {
+    try {
+      record->written.push_back(range);
+    } catch (const std::bad_alloc&) {
+      note(ENOMEM);
+    }
   }
 };
 
@@ -83,7 +90,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) {
     return nullptr;
   }
   file->descriptor = descriptor;
-  file->failure = static_cast<const Info*>(H5Pget_driver_info(access))->failure;
+  file->record = static_cast<const Info*>(H5Pget_driver_info(access))->record;
   file->device = status.st_dev, file->inode = status.st_ino;
   file->length = static_cast<haddr_t>(status.st_size);
   return file;
@@ -171,8 +178,12 @@ herr_t write_bytes(H5FD_t* opened, H5FD_mem_t, hid_t, haddr_t begin, std::size_t
   const auto* bytes = static_cast<const unsigned char*>(buffer);
   file.length = std::max<haddr_t>(file.length, begin + size);
   // After a failure nothing goes to the file any more: a later write must not lie below an earlier one.
-  const std::size_t done = *file.failure == 0 ? write_what_fits(file.descriptor, begin, size, bytes) : 0;
-  if (done == size) return 0;
+  const std::size_t done =
+      file.record->failure == 0 ? write_what_fits(file.descriptor, begin, size, bytes) : 0;
+  if (done == size) {
+    file.note_written({begin, size});
+    return 0;
+  }
   file.note(errno);
   try {
     file.unwritten.push_back({begin + done, {bytes + done, bytes + size}});
@@ -185,7 +196,7 @@ herr_t write_bytes(H5FD_t* opened, H5FD_mem_t, hid_t, haddr_t begin, std::size_t
 herr_t truncate_file(H5FD_t* opened, hid_t, hbool_t) {
   OpenFile& file = of(opened);
   if (file.length == file.allocated) return 0;
-  if (*file.failure == 0 &&
+  if (file.record->failure == 0 &&
       uninterrupted([&] { return ftruncate(file.descriptor, static_cast<off_t>(file.allocated)); }) != 0)
     file.note(errno);
   file.length = file.allocated;
@@ -193,14 +204,13 @@ herr_t truncate_file(H5FD_t* opened, hid_t, hbool_t) {
 }
 
 /// Locks where the file system can, does without where it cannot.
-herr_t lock_file(H5FD_t* file, hbool_t exclusive) {
-  if (flock(of(file).descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-    return 0;
+herr_t lock_opened(H5FD_t* file, hbool_t exclusive) {
+  if (lock_file(of(file).descriptor, exclusive)) return 0;
   push_reason(H5E_CANTLOCKFILE);
   return -1;
 }
 
-herr_t unlock_file(H5FD_t* file) {
+herr_t unlock_opened(H5FD_t* file) {
   (void)flock(of(file).descriptor, LOCK_UN);
   return 0;
 }
@@ -226,8 +236,8 @@ H5FD_class_t make_class() {
   c.read = read_bytes;
   c.write = write_bytes;
   c.truncate = truncate_file;
-  c.lock = lock_file;
-  c.unlock = unlock_file;
+  c.lock = lock_opened;
+  c.unlock = unlock_opened;
   const H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;
   std::copy(std::begin(map), std::end(map), c.fl_map);
   return c;
@@ -235,11 +245,11 @@ H5FD_class_t make_class() {
 
 }  // namespace
 
-Handle file_properties(int& failure, const std::string& where) {
+Handle file_properties(FileRecord& record, const std::string& where) {
   static const H5FD_class_t driver_class = make_class();
   static const hid_t driver = checked(H5FDregister(&driver_class), where, "register the file driver");
   Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, where, "set file access");
-  const Info info{&failure};
+  const Info info{&record};
   checked(H5Pset_driver(access.id(), driver, &info), where, "set the file driver");
   return access;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <new>
 
@@ -39,12 +40,28 @@ void set_up() {
   if (H5Lis_registered(H5L_TYPE_EXTERNAL) > 0) H5Lunregister(H5L_TYPE_EXTERNAL);
 }
 
-Handle access_properties(int& failure, const std::string& path) {
-  Handle access = file_properties(failure, path);
+Handle access_properties(FileRecord& record, const std::string& path) {
+  Handle access = file_properties(record, path);
   checked(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path, "set file access");
   checked(H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_V110), path, "set file format");
   checked(H5Pset_file_locking(access.id(), true, true), path, "set file locking");
   return access;
+}
+
+/// Ranges by rising place; those that overlap or adjoin become one.
+std::vector<ByteRange> joined(std::vector<ByteRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const ByteRange& a, const ByteRange& b) { return a.begin < b.begin; });
+  std::size_t count = 0;
+  for (const ByteRange& next : ranges) {
+    ByteRange* last = count == 0 ? nullptr : &ranges[count - 1];
+    if (last != nullptr && next.begin <= last->begin + last->size)
+      last->size = std::max(last->size, next.begin + next.size - last->begin);
+    else
+      ranges[count++] = next;
+  }
+  ranges.resize(count);
+  return ranges;
 }
 
 }  // namespace
@@ -57,21 +74,24 @@ void throw_hdf5_error(const std::string& where, const std::string& action) {
       fmt::format("{}: cannot {}: {}", where, action, reason.empty() ? "unknown HDF5 error" : reason)));
 }
 
-File::File(const std::filesystem::path& path, std::unique_ptr<int> failure, Handle handle)
+File::File(const std::filesystem::path& path, std::unique_ptr<FileRecord> record, Handle handle)
     : path_(path),
-      failure_(std::move(failure)),
+      record_(std::move(record)),
       handle_(std::move(handle)),
       root_(own(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), H5Gclose, path_, "open the root group"),
             path_ + ": /") {}
+
+File::~File() = default;
+File::File(File&&) noexcept = default;
 
 File File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   set_up();
   const std::string name = path.string();
   const Handle creation = own(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name, "set file creation");
   if (user_block > 0) checked(H5Pset_userblock(creation.id(), user_block), name, "set the user block");
-  auto failure = std::make_unique<int>(0);
-  const Handle access = access_properties(*failure, name);
-  return File(path, std::move(failure),
+  auto record = std::make_unique<FileRecord>();
+  const Handle access = access_properties(*record, name);
+  return File(path, std::move(record),
               own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, name,
                   "create the file"));
 }
@@ -88,17 +108,18 @@ File File::open(const std::filesystem::path& path, unsigned flags, const std::st
   set_up();
   require_regular_file(path);
   const std::string name = path.string();
-  auto failure = std::make_unique<int>(0);
-  const Handle access = access_properties(*failure, name);
-  return File(path, std::move(failure),
+  auto record = std::make_unique<FileRecord>();
+  const Handle access = access_properties(*record, name);
+  return File(path, std::move(record),
               own(H5Fopen(name.c_str(), flags, access.id()), H5Fclose, name, action));
 }
 
-void File::close() {
+std::vector<ByteRange> File::close() {
   root_ = Group(Handle(), path_ + ": /");
   if (!handle_.release()) throw_hdf5_error(path_, "close the file");
-  if (*failure_ != 0)
-    throw Hdf5Error(fmt::format("{}: cannot write the file: {}", path_, std::strerror(*failure_)));
+  if (record_->failure != 0)
+    throw Hdf5Error(fmt::format("{}: cannot write the file: {}", path_, std::strerror(record_->failure)));
+  return joined(std::move(record_->written));
 }
 
 std::string hdf5_version() {

@@ -77,15 +77,23 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
   return result;
 }
 
+/// False where a copy must take the shadow's place.
+bool ResultFile::bring_shadow_level() const {
+  const Descriptor result(path_, O_RDONLY);
+  const FileVersion version = result.version();
+  Descriptor shadow(shadow_, O_WRONLY);
+  if (version != published_ || !shadow.lock()) return false;
+  for (const ByteRange& part : ahead_) shadow.write_part_of(result, part);
+  shadow.truncate(version.size);
+  shadow.close();
+  return true;
+}
+
 File ResultFile::open_shadow() const {
   std::error_code failure;
   if (std::filesystem::exists(shadow_, failure)) {
-    try {
-      return File::open_to_write(shadow_);
-    } catch (const Hdf5Error&) {
-      // Another program still reads the file that was result.h5 one output ago: leave it to that program.
-      remove_file(shadow_);
-    }
+    if (bring_shadow_level()) return File::open_to_write(shadow_);
+    remove_file(shadow_);  // (a program that reads it keeps it)
   }
   Descriptor copy(shadow_, O_WRONLY | O_CREAT | O_EXCL);
   copy.write_all_of(Descriptor(path_, O_RDONLY));
@@ -97,14 +105,10 @@ void ResultFile::append(const OutputFrame& frame) {
   require_consistent(frame, particles_);
   try {
     File shadow = open_shadow();
-    const std::size_t present = count_steps(shadow.root());
-    if (present < steps_.size()) {
-      const File current = File::open_to_read(path_);
-      copy_steps(current.root(), shadow.root(), present, steps_.size());
-    }
     write_step(shadow.root(), steps_.size(), frame);
     write_series(shadow.root(), steps_.size(), frame);
-    shadow.close();
+    ahead_ = shadow.close();
+    published_ = Descriptor(shadow_, O_RDONLY).version();
     publish();
   } catch (const FileError&) {
     std::error_code missing;

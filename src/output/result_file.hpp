@@ -26,12 +26,13 @@ struct StoredStep {
 ///
 /// HDF5 promises nothing about a file whose writer is killed, so result.h5 is never open for writing. There
 /// are two files, result.h5 and a hidden shadow one output behind it. An output brings the shadow up to date
-/// by copying the steps it lacks, adds the new step, closes it, forces it to disk, and exchanges the names of
-/// the two files in one atomic step (renameat2 with RENAME_EXCHANGE). An output is therefore written twice,
-/// but never more often, however many there are; a file that were copied as a whole would cost ever more.
-/// Where the file system cannot exchange names, the shadow is renamed over result.h5 and the next one begins
-/// as a copy. A program that has result.h5 open keeps its old version: when HDF5's lock shows that the shadow
-/// is being read, a copy takes the shadow's place.
+/// by copying the bytes that the last output has written, adds the new step, closes it, forces it to disk,
+/// and exchanges the names of the two files in one atomic step (renameat2 with RENAME_EXCHANGE). An output is
+/// therefore written twice, but never more often, however many there are; a file that were copied as a whole
+/// would cost ever more. The shadow begins as a copy of result.h5, and is made one again where that is
+/// needed: when the file system cannot exchange names and it has been renamed over result.h5; when another
+/// program still reads it, as a lock shows, as the result.h5 it once was; when another program has changed
+/// result.h5.
 class ResultFile {
  public:
   /// How the shadow becomes result.h5.
@@ -63,13 +64,16 @@ class ResultFile {
 
  private:
   ResultFile(const std::filesystem::path& directory, Publishing publishing);
-  void publish();
   File open_shadow() const;
+  bool bring_shadow_level() const;
+  void publish();
 
   std::filesystem::path path_, shadow_;
   Publishing publishing_;
   std::size_t particles_ = 0;
   std::vector<StoredStep> steps_;
+  std::vector<ByteRange> ahead_;  // what result.h5 has and the shadow, if there is one, has not
+  FileVersion published_;         // result.h5 as it was then
 };
 
 /// Name of step group `index`: at least five digits.

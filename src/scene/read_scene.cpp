@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -28,9 +29,12 @@ std::string read_text(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: found a directory, expected a TOML file", file.string()));
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  std::string text(largest_file + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string text;
+  std::array<char, 16384> piece{};
+  do {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream && text.size() <= largest_file);
   if (text.size() > largest_file)
     throw InputError(
         fmt::format("{}: found more than {} MB, expected a scene", file.string(), largest_file >> 20));

@@ -42,6 +42,11 @@ void check_complete(const std::filesystem::path& directory, std::size_t outputs)
   }
 }
 
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
 TEST_CASE("A result file has the documented layout", "[output]") {
@@ -73,6 +78,39 @@ TEST_CASE("A result file has the documented layout", "[output]") {
   CHECK(root.read_doubles("particles/mass") == header.particles.mass);
   CHECK(root.text_attribute("particles/mass", "unit") == "kg");
   CHECK(root.read_texts("bodies") == header.particles.bodies);
+}
+
+TEST_CASE("The shadow is brought level to the byte", "[output]") {
+  const TemporaryDirectory directory;
+  constexpr std::size_t particles = 2000;
+  RunHeader header = sample_header();
+  header.particles.body.assign(particles, 0);
+  header.particles.mass.assign(particles, 1.0);
+  ResultFile result = ResultFile::create(directory.path(), header);
+  std::string before;
+  for (std::size_t s = 0; s < 200; ++s) {  // more rows than a chunk of a series has
+    OutputFrame frame = sample_frame(s, particles);
+    if (s % 3 == 1) frame.fields.clear();
+    if (s > 50) frame.series.push_back({"late", "m", "begins late", 7.0});
+    result.append(frame);
+    if (s > 0) REQUIRE(bytes_of(next_of(result_path(directory.path()))) == before);
+    before = bytes_of(result_path(directory.path()));
+  }
+}
+
+TEST_CASE("What another program adds to a result between two outputs is kept", "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  for (std::size_t s = 0; s < 6; ++s) {
+    result.append(sample_frame(s));
+    if (s != 2) continue;
+    File file = File::open_to_write(result_path(directory.path()));
+    file.root().set_attribute(".", "note", std::string("a plate like last year's"));
+    file.close();
+  }
+  check_complete(directory.path(), 6);
+  const File file = File::open_to_read(result_path(directory.path()));
+  CHECK(file.root().text_attribute(".", "note") == "a plate like last year's");
 }
 
 TEST_CASE("Without exchange of names the shadow is renamed", "[output]") {
