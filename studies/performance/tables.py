@@ -134,7 +134,7 @@ def memory_exponent(timings):
 
 def growth(program, repetitions, quick):
     cells = [0.625e-3, 0.3125e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.0390625e-3, 0.01953125e-3]
-    steps = {cell: max(20, min(4000, int(4e6 * (cell / 0.625e-3) ** 2 / 1280))) if not quick else 20 for cell in cells}
+    steps = {cell: max(60, int(60e6 * (cell / 0.625e-3) ** 2 / 1280)) if not quick else 20 for cell in cells}
     sizes = runs.measure(program, [runs.Case(f"{cell}", runs.bar, runs.bar_settings(cell, steps[cell])) for cell in cells], repetitions)
     rows = [(t.particles, f"{t.rate:.1f}", percent(t.spread), f"{1e6 * t.median / t.steps:.0f}", f"{t.memory / 1e6:.0f}") for t in sizes.values()]
     particles = [t.particles for t in sizes.values()]
@@ -169,9 +169,9 @@ def study_cases(program, repetitions, quick):
 def threads(program, repetitions, quick):
     """What a second core gives: to a second thread, and, as the bound that the machine sets, to a second process."""
     bars = [0.625e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.03125e-3]
-    scenes = [("bar", runs.bar, runs.bar_settings(cell, 20 if quick else max(20, int(16e6 * (cell / 0.625e-3) ** 2 / 1280))))
+    scenes = [("bar", runs.bar, runs.bar_settings(cell, 20 if quick else max(20, int(60e6 * (cell / 0.625e-3) ** 2 / 1280))))
               for cell in bars]
-    scenes += [] if quick else [("disks", runs.disks, runs.disks_settings(cells, steps)) for cells, steps in [(141, 1500), (282, 300), (705, 40)]]
+    scenes += [] if quick else [("disks", runs.disks, runs.disks_settings(cells, steps)) for cells, steps in [(141, 2500), (282, 1000), (705, 160)]]
     rows = []
     for name, scene, settings in scenes:
         t = runs.measure(program, [runs.Case("1", scene, settings), runs.Case("2", scene, settings, threads=2),
