@@ -104,6 +104,12 @@ struct BatchReport {
   SymmetricTensor failed_increment;  ///< strain increment of that failure
   std::string cause;                 ///< of that failure
 
+  /// Whether it tells of anything but elastic energy.
+  bool tells_more() const {
+    return dissipated.total() != 0.0 || dissipated.snap_back != 0.0 || !events.empty() ||
+           solver.increments != 0 || failed.has_value();
+  }
+
   /// Back to zero; keeps its memory.
   void clear() {
     elastic = 0.0, dissipated = {}, solver = {};

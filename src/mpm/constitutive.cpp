@@ -53,6 +53,12 @@ std::vector<BatchReport>& reports_of(std::size_t count) {
   return reports;
 }
 
+std::vector<BriefReport>& brief_reports_of(std::size_t count) {
+  static thread_local std::vector<BriefReport> reports;
+  if (reports.size() < count) reports.resize(count);
+  return reports;
+}
+
 /// Takes all increments of a body; calls book(report) for each chunk in the order of the particles.
 template <class Book>
 void take_increments(System& system, std::size_t body_index, const ParticleColumns& columns, double duration,
@@ -87,8 +93,8 @@ void open_record(StepRecord& record) {
   record.events.clear();
 }
 
+/// All but the elastic energy.
 void enter(StepRecord& record, std::size_t body, const BatchReport& report) {
-  record.elastic += report.elastic;
   record.dissipated += report.dissipated;
   for (const ParticleEvent& e : report.events) record.events.push_back({body, e.particle, e.event});
 }
@@ -151,7 +157,8 @@ class Collected {
 StressUpdate::StressUpdate(System& system, double duration)
     : system_(system),
       duration_(duration),
-      reports_(reports_of(system.grid.tiles().size() * system.bodies.size())) {
+      reports_(reports_of(system.grid.tiles().size() * system.bodies.size())),
+      brief_(brief_reports_of(system.grid.tiles().size() * system.bodies.size())) {
   for (Body& body : system.bodies) columns_.push_back(committing_columns(body.particles));
 }
 
@@ -185,12 +192,20 @@ void StressUpdate::take(std::size_t tile, std::size_t body, const Chunk& chunk,
   if (report.failed) report.failed = chunk.place(*report.failed);
 }
 
+void StressUpdate::finish(std::size_t tile) {
+  const std::size_t bodies = columns_.size();
+  for (std::size_t k = tile * bodies; k < (tile + 1) * bodies; ++k)
+    brief_[k] = {reports_[k].elastic, reports_[k].tells_more()};
+}
+
 void StressUpdate::book() {
   const std::size_t bodies = columns_.size(), reports = system_.grid.tiles().size() * bodies;
   for (std::size_t k = 0; k < reports; ++k)
-    if (reports_[k].failed) fail(system_, k % bodies, reports_[k], duration_);
+    if (brief_[k].more && reports_[k].failed) fail(system_, k % bodies, reports_[k], duration_);
   open_record(system_.record);
   for (std::size_t k = 0; k < reports; ++k) {
+    system_.record.elastic += brief_[k].elastic;
+    if (!brief_[k].more) continue;
     system_.constitutive_solver += reports_[k].solver;
     enter(system_.record, k % bodies, reports_[k]);
   }
@@ -203,7 +218,10 @@ void update_stress(System& system, double duration) {
   open_record(system.record);
   for (std::size_t n = 0; n < system.bodies.size(); ++n)
     take_increments(system, n, committing_columns(system.bodies[n].particles), duration,
-                    [&](const BatchReport& report) { enter(system.record, n, report); });
+                    [&](const BatchReport& report) {
+                      system.record.elastic += report.elastic;
+                      enter(system.record, n, report);
+                    });
   system.constitutive_events += static_cast<std::int64_t>(system.record.events.size());
 }
 

@@ -215,6 +215,8 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
       if constexpr (P::position) left |= store_position<axisymmetric>(chunk, p, at, r, z, cells, duration);
     });
   }
+  if constexpr (P::strain)
+    if (stress != nullptr) stress->finish(tile);
   if constexpr (P::position) grid.note_moved(tile, system.bodies, left);
   if constexpr (P::rescatter && axisymmetric && kind != ShapeKind::linear)
     if (block.column == 0) fold_axis(momenta, axis_parity<2>);
