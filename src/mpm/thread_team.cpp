@@ -13,7 +13,7 @@ namespace {
 
 /// Waits until `value` is no longer `old`. First awake: on a virtual machine, waking a thread that sleeps was
 /// seen to cost 30 us who wakes it, and 230 us until it is awake, longer than most of what a thread does
-/// alone between two loops. All but the first microseconds give way to whoever else wants the processor.
+/// alone between two loops. Every 30 us it gives way to whoever else wants the processor.
 template <class T>
 T wait_for_change(const std::atomic<T>& value, T old) {
   using Clock = std::chrono::steady_clock;

@@ -92,7 +92,11 @@ bool ResultFile::bring_shadow_level() const {
 File ResultFile::open_shadow() const {
   std::error_code failure;
   if (std::filesystem::exists(shadow_, failure)) {
-    if (bring_shadow_level()) return File::open_to_write(shadow_);
+    try {
+      if (bring_shadow_level()) return File::open_to_write(shadow_);
+    } catch (const Hdf5Error&) {
+      // Another program that had opened it as result.h5 has locked it meanwhile.
+    }
     remove_file(shadow_);  // (a program that reads it keeps it)
   }
   Descriptor copy(shadow_, O_WRONLY | O_CREAT | O_EXCL);
