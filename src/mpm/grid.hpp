@@ -192,10 +192,18 @@ class Grid {
     }
     bool some() const { return !movers.empty() || wider || lost; }
   };
+  /// What has become of the particles of a thread's tiles.
+  struct alignas(64) Found {
+    std::vector<Mover> movers;
+    bool lost = false;  ///< some position is no cell's
+    /// The blocks there are can take those who have moved, as far as these tiles tell.
+    bool blocks_serve = true;
+    std::size_t scattered = 0;
+  };
   /// The lists as they were.
   struct Lists {
     std::vector<std::uint32_t> offset, index;
-    std::vector<std::ptrdiff_t> list;  ///< by list that is now: the one it comes of; -1: none
+    std::vector<std::ptrdiff_t> list;  ///< by list that is now: the one it comes of; -1: none; empty: itself
   };
   void find_blocks(const std::vector<Body>& bodies);
   void fill_lists(const std::vector<Body>& bodies);
@@ -210,11 +218,14 @@ class Grid {
   void find_movers(std::size_t tile, const std::vector<Body>& bodies);
   std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
   std::int32_t destination(const Mover& mover) const;
+  void collect_movers(std::size_t first, std::size_t last, Found& found);
+  bool has_neighbours(const Block& block) const;
   bool blocks_serve();
   std::vector<Block> blocks_after_moves() const;
+  void renew_blocks();
   std::size_t first_tile_of(std::size_t thread, std::size_t threads) const;
-  void move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
-                          ThreadTeam& team);
+  void sort_movers();
+  void shift_lists(std::size_t first, std::size_t last);
   void merge_list(std::size_t list, const Particles& p);
 
   double cell_ = 1.0;
@@ -230,13 +241,13 @@ class Grid {
   std::vector<std::size_t> shares_;            // first tile of each thread's
   std::vector<Moved> moved_;                   // by tile
   std::size_t scattered_ = 0;
-  std::vector<std::int32_t> home_;              // scratch: block of each particle
-  std::vector<std::uint32_t> place_;            // scratch: place of each identity
-  std::vector<Mover> movers_;                   // scratch: by the list left and the place there
-  std::vector<Leaver> leavers_;                 // scratch: by list and place
-  std::vector<Comer> comers_;                   // scratch: by list and identity
-  std::vector<std::size_t> scattered_of_tile_;  // scratch
-  Lists old_;                                   // scratch
+  std::vector<std::int32_t> home_;    // scratch: block of each particle
+  std::vector<std::uint32_t> place_;  // scratch: place of each identity
+  std::vector<Found> found_;          // scratch: by thread
+  std::vector<Mover> movers_;         // scratch: by the list left and the place there
+  std::vector<Leaver> leavers_;       // scratch: by list and place
+  std::vector<Comer> comers_;         // scratch: by list and identity
+  Lists old_;                         // scratch
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;

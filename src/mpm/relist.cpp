@@ -58,29 +58,56 @@ void Grid::find_movers(std::size_t tile, const std::vector<Body>& bodies) {
 }
 
 void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
+  const auto threads = static_cast<std::size_t>(team.size());
+  found_.resize(threads);
+  team.on_each_thread([&](std::size_t thread) {
+    collect_movers(first_tile_of(thread, threads), first_tile_of(thread + 1, threads), found_[thread]);
+  });
   // Only making all lists anew tells the same lost particle whichever tile it was in.
-  if (std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.lost; }))
+  if (std::any_of(found_.begin(), found_.end(), [](const Found& f) { return f.lost; }))
     return rebuild(bodies);
   movers_.clear();
-  for (const Moved& tile : moved_) movers_.insert(movers_.end(), tile.movers.begin(), tile.movers.end());
-  std::vector<std::int32_t> rank(tile_block_.size());  // old tile -> new tile; -1: holds no particle any more
-  std::iota(rank.begin(), rank.end(), 0);
+  for (const Found& f : found_) movers_.insert(movers_.end(), f.movers.begin(), f.movers.end());
   const bool serve = blocks_serve();
-  if (serve && movers_.empty()) {
-    for (Moved& tile : moved_) tile.clear();
-    return;
+  if (serve && movers_.empty()) return;
+  old_.offset.swap(offset_), old_.index.swap(index_), old_.list.clear();
+  index_.resize(old_.index.size());
+  offset_.resize(old_.offset.size()), offset_.back() = old_.offset.back();
+  if (!serve) renew_blocks();
+  sort_movers();
+  team.on_each_thread([&](std::size_t thread) {
+    const std::size_t first = first_tile_of(thread, threads), last = first_tile_of(thread + 1, threads);
+    if (serve) shift_lists(first * body_count_, last * body_count_);
+    found_[thread].scattered = 0;
+    for (std::size_t tile = first; tile < last; ++tile) {
+      for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
+      found_[thread].scattered += scattered_in(tile);
+    }
+  });
+  scattered_ = 0;
+  for (const Found& f : found_) scattered_ += f.scattered;
+}
+
+/// Gathers the movers of the tiles [first, last), with the lists that they go to as blocks are now.
+void Grid::collect_movers(std::size_t first, std::size_t last, Found& found) {
+  found.movers.clear();
+  found.lost = false, found.blocks_serve = true;
+  for (std::size_t tile = first; tile < last; ++tile) {
+    Moved& moved = moved_[tile];
+    if (!moved.some()) continue;
+    found.lost |= moved.lost;
+    if (moved.wider) found.blocks_serve &= has_neighbours(blocks_[tile]);
+    const std::size_t listed = offset_[(tile + 1) * body_count_] - offset_[tile * body_count_];
+    if (moved.movers.size() == listed) found.blocks_serve = false;  // unless others come, the block is empty
+    for (Mover m : moved.movers) {
+      const std::int32_t to = destination(m);
+      if (to < 0) found.blocks_serve = false;
+      m.to = static_cast<std::uint32_t>(to) * static_cast<std::uint32_t>(body_count_) +
+             m.from % static_cast<std::uint32_t>(body_count_);
+      found.movers.push_back(m);
+    }
+    moved.clear();
   }
-  if (!serve) {
-    const std::vector<Block> old(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(rank.size()));
-    set_blocks(blocks_after_moves());
-    for (std::size_t tile = 0; tile < old.size(); ++tile)
-      rank[tile] = tile_of(old[tile].column, old[tile].row);
-    const auto bodies_listed = static_cast<std::uint32_t>(body_count_);
-    for (Mover& m : movers_)
-      m.to = static_cast<std::uint32_t>(tile_of(block_of(m.i), block_of(m.j))) * bodies_listed +
-             m.from % bodies_listed;
-  }
-  move_between_lists(rank, bodies, team);
 }
 
 /// The tile of a block; -1: none.
@@ -99,35 +126,30 @@ std::int32_t Grid::destination(const Mover& m) const {
   return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)].tile;
 }
 
-/// Whether the blocks there are can take the movers: none is new, none is empty afterwards, and none reaches
-/// for nodes that are not there. Widens their cells, and enters where the movers go.
-bool Grid::blocks_serve() {
-  std::vector<std::int64_t> size(tile_block_.size());
-  for (std::size_t tile = 0; tile < size.size(); ++tile)
-    size[tile] = std::int64_t{offset_[(tile + 1) * body_count_]} - offset_[tile * body_count_];
-  bool wider = std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.wider; });
-  for (Mover& m : movers_) {
-    const std::int32_t to = destination(m);
-    if (to < 0) return false;
-    wider |= widen(blocks_[static_cast<std::size_t>(to)], m.i, m.j);
-    --size[m.from / body_count_], ++size[static_cast<std::size_t>(to)];
-    m.to = static_cast<std::uint32_t>(static_cast<std::size_t>(to) * body_count_ + m.from % body_count_);
-  }
-  if (std::any_of(size.begin(), size.end(), [](std::int64_t n) { return n == 0; })) return false;
-  for (std::size_t tile = 0; wider && tile < size.size(); ++tile) {
-    const auto [left, right, down, up] = reach(blocks_[tile]);
-    for (int dj = down; dj <= up; ++dj)
-      for (int di = left; di <= right; ++di)
-        if (blocks_[tile].neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)] < 0) return false;
-  }
+/// Whether all blocks are there whose nodes the particles of a block may touch.
+bool Grid::has_neighbours(const Block& block) const {
+  const auto [left, right, down, up] = reach(block);
+  for (int dj = down; dj <= up; ++dj)
+    for (int di = left; di <= right; ++di)
+      if (block.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)] < 0) return false;
   return true;
+}
+
+/// Whether the blocks there are can take the movers: none is new, none is empty afterwards, and none reaches
+/// for nodes that are not there. Widens their cells.
+bool Grid::blocks_serve() {
+  if (!std::all_of(found_.begin(), found_.end(), [](const Found& f) { return f.blocks_serve; })) return false;
+  return std::all_of(movers_.begin(), movers_.end(), [&](const Mover& m) {
+    Block& to = blocks_[m.to / body_count_];
+    return !widen(to, m.i, m.j) || has_neighbours(to);
+  });
 }
 
 /// The blocks that hold particles once the movers have moved.
 std::vector<Block> Grid::blocks_after_moves() const {
   std::vector<std::int64_t> size(tile_block_.size());
   for (std::size_t tile = 0; tile < size.size(); ++tile)
-    size[tile] = std::int64_t{offset_[(tile + 1) * body_count_]} - offset_[tile * body_count_];
+    size[tile] = std::int64_t{old_.offset[(tile + 1) * body_count_]} - old_.offset[tile * body_count_];
   std::vector<Block> after(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(size.size()));
   std::unordered_map<std::uint64_t, std::size_t> place;
   for (std::size_t tile = 0; tile < size.size(); ++tile)
@@ -145,47 +167,58 @@ std::vector<Block> Grid::blocks_after_moves() const {
   return after;
 }
 
-/// Lists without those who left and with those who came, by rising identity; all others are copied.
-void Grid::move_between_lists(const std::vector<std::int32_t>& rank, const std::vector<Body>& bodies,
-                              ThreadTeam& team) {
-  old_.offset.swap(offset_), old_.index.swap(index_);
-  index_.resize(old_.index.size());
+/// Makes the blocks that hold particles once the movers have moved, finds which of the old lists each list
+/// comes of and where it begins, and enters where the movers go.
+void Grid::renew_blocks() {
+  const std::vector<Block> old(blocks_.begin(),
+                               blocks_.begin() + static_cast<std::ptrdiff_t>(tile_block_.size()));
+  set_blocks(blocks_after_moves());
   offset_.assign(tile_block_.size() * body_count_ + 1, 0);
   old_.list.assign(offset_.size() - 1, -1);
-  for (std::size_t tile = 0; tile < rank.size(); ++tile)
+  std::vector<std::int32_t> rank(old.size());  // old tile -> new tile; -1: holds no particle any more
+  for (std::size_t tile = 0; tile < old.size(); ++tile) {
+    rank[tile] = tile_of(old[tile].column, old[tile].row);
     for (std::size_t n = 0; rank[tile] >= 0 && n < body_count_; ++n) {
       const std::size_t from = tile * body_count_ + n,
                         to = static_cast<std::size_t>(rank[tile]) * body_count_ + n;
       old_.list[to] = static_cast<std::ptrdiff_t>(from);
       offset_[to + 1] = old_.offset[from + 1] - old_.offset[from];
     }
-  for (const Mover& m : movers_) {
+  }
+  for (Mover& m : movers_) {
+    const std::size_t body = m.from % body_count_;
     if (const std::int32_t stays = rank[m.from / body_count_]; stays >= 0)
-      --offset_[static_cast<std::size_t>(stays) * body_count_ + m.from % body_count_ + 1];
+      --offset_[static_cast<std::size_t>(stays) * body_count_ + body + 1];
+    const auto tile = static_cast<std::size_t>(tile_of(block_of(m.i), block_of(m.j)));
+    m.to = static_cast<std::uint32_t>(tile * body_count_ + body);
     ++offset_[m.to + 1];
   }
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+}
 
+void Grid::sort_movers() {
   leavers_.clear(), comers_.clear();
   for (const Mover& m : movers_)
     leavers_.push_back({m.from, m.place}), comers_.push_back({m.to, m.identity, m.particle});
   std::sort(comers_.begin(), comers_.end(), [](const Comer& a, const Comer& b) {
     return a.list != b.list ? a.list < b.list : a.identity < b.identity;
   });
-  scattered_of_tile_.resize(tile_block_.size());
-  const auto threads = static_cast<std::size_t>(team.size());
-  team.on_each_thread([&](std::size_t thread) {
-    const std::size_t last = first_tile_of(thread + 1, threads);
-    for (std::size_t tile = first_tile_of(thread, threads); tile < last; ++tile) {
-      for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
-      scattered_of_tile_[tile] = scattered_in(tile);
-      moved_[tile].clear();
-    }
-  });
-  scattered_ = std::accumulate(scattered_of_tile_.begin(), scattered_of_tile_.end(), std::size_t{0});
 }
 
-/// Makes a list of the old one and of those who left and came.
+/// Finds where the lists [first, last) begin: as before, but for those who left and came before them.
+void Grid::shift_lists(std::size_t first, std::size_t last) {
+  const auto before = [](const auto& mover, std::size_t list) { return mover.list < list; };
+  auto leaver = std::lower_bound(leavers_.begin(), leavers_.end(), first, before);
+  auto comer = std::lower_bound(comers_.begin(), comers_.end(), first, before);
+  for (std::size_t list = first; list < last; ++list) {
+    offset_[list] = static_cast<std::uint32_t>(old_.offset[list] + (comer - comers_.begin()) -
+                                               (leaver - leavers_.begin()));
+    while (leaver != leavers_.end() && leaver->list == list) ++leaver;
+    while (comer != comers_.end() && comer->list == list) ++comer;
+  }
+}
+
+/// Makes a list of the old one, without those who left and with those who came, by rising identity.
 void Grid::merge_list(std::size_t list, const Particles& p) {
   const auto those_of = [](const auto& movers, std::size_t of) {
     const auto first = std::lower_bound(movers.begin(), movers.end(), of,
@@ -194,11 +227,12 @@ void Grid::merge_list(std::size_t list, const Particles& p) {
   };
   auto [comer, last_comer] = those_of(comers_, list);
   std::uint32_t* to = index_.data() + offset_[list];
-  if (old_.list[list] < 0) {
+  const std::ptrdiff_t old = old_.list.empty() ? static_cast<std::ptrdiff_t>(list) : old_.list[list];
+  if (old < 0) {
     for (; comer != last_comer; ++comer) *to++ = comer->particle;
     return;
   }
-  const auto from = static_cast<std::size_t>(old_.list[list]);
+  const auto from = static_cast<std::size_t>(old);
   auto [leaver, last_leaver] = those_of(leavers_, from);
   const std::uint32_t *const begin = old_.index.data() + old_.offset[from],
                              *const end = old_.index.data() + old_.offset[from + 1], *at = begin;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include "mpm/grid.hpp"
 
@@ -19,13 +18,13 @@ T* room_for(std::size_t size) {
 }
 
 /// What one thread puts into order: the particles of some tiles, which it is the one to work with.
-class Part {
+class alignas(64) Part {
  public:
-  /// lists: of these tiles, list after list those of the bodies, with the places of their particles; on
-  /// return with the new ones. places: the new place of each list's first particle. Copies what other parts
-  /// are about to overwrite.
-  void collect(const std::vector<Body>& bodies, std::span<const std::span<std::uint32_t>> lists,
-               std::span<const std::uint32_t> places);
+  /// The lists [first, last): of these tiles, those of all bodies one after the other. List n has the places
+  /// of its particles in index[offset[n]] to index[offset[n + 1]], on return the new ones. Copies what other
+  /// parts are about to overwrite.
+  void collect(const std::vector<Body>& bodies, const std::uint32_t* offset, std::uint32_t* index,
+               std::size_t first, std::size_t last);
   /// Puts the particles at their new places, on the same thread. All parts must have been collected. Throws
   /// nothing: the particles would be torn.
   void place(std::vector<Body>& bodies) const;
@@ -41,16 +40,19 @@ class Part {
   std::vector<Stretch> stretches_;  // by body
 };
 
-void Part::collect(const std::vector<Body>& bodies, std::span<const std::span<std::uint32_t>> lists,
-                   std::span<const std::uint32_t> places) {
+void Part::collect(const std::vector<Body>& bodies, const std::uint32_t* offset, std::uint32_t* index,
+                   std::size_t first, std::size_t last) {
   stretches_.resize(bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     Stretch& s = stretches_[body];
     s.from.clear(), s.foreign.clear(), s.values.clear();
-    s.begin = lists.empty() ? 0 : places[body];
-    for (std::size_t n = body; n < lists.size(); n += bodies.size()) {
-      s.from.insert(s.from.end(), lists[n].begin(), lists[n].end());
-      std::iota(lists[n].begin(), lists[n].end(), places[n]);
+    s.begin = 0;
+    for (std::size_t n = body; n < first; n += bodies.size()) s.begin += offset[n + 1] - offset[n];
+    for (std::size_t n = first + body; n < last; n += bodies.size()) {
+      std::uint32_t *const list = index + offset[n], *const end = index + offset[n + 1];
+      const auto place = static_cast<std::uint32_t>(s.begin + s.from.size());
+      s.from.insert(s.from.end(), list, end);
+      std::iota(list, end, place);
     }
     const auto begin = static_cast<std::uint32_t>(s.begin), size = static_cast<std::uint32_t>(s.from.size());
     for (std::uint32_t k = 0; k < size; ++k)
@@ -83,25 +85,13 @@ void Part::place(std::vector<Body>& bodies) const {
 }  // namespace
 
 void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team, std::size_t count) {
-  const std::size_t lists = offset_.size() - 1;
   static thread_local std::vector<Part> parts;  // of the calling thread; workers write to them
-  static thread_local std::vector<std::span<std::uint32_t>> list;
-  static thread_local std::vector<std::uint32_t> places;
-  parts.resize(count), list.resize(lists), places.resize(lists);
-  std::vector<std::uint32_t> next(body_count_, 0);
-  for (std::size_t n = 0; n < lists; ++n) {
-    list[n] = {index_.data() + offset_[n], index_.data() + offset_[n + 1]};
-    places[n] = std::exchange(next[n % body_count_], next[n % body_count_] + offset_[n + 1] - offset_[n]);
-  }
-  // (Thread-local names mean something else in each thread.)
-  const std::span<Part> all_parts = parts;
-  const std::span<const std::span<std::uint32_t>> all_lists = list;
-  const std::span<const std::uint32_t> all_places = places;
+  parts.resize(count);
+  const std::span<Part> all_parts = parts;  // (a thread-local name means something else in each thread)
   team.on_each_thread([&](std::size_t n) {
-    if (n >= count) return;
-    const std::size_t first = first_tile_of(n, count) * body_count_,
-                      size = first_tile_of(n + 1, count) * body_count_ - first;
-    all_parts[n].collect(bodies, all_lists.subspan(first, size), all_places.subspan(first, size));
+    if (n < count)
+      all_parts[n].collect(bodies, offset_.data(), index_.data(), first_tile_of(n, count) * body_count_,
+                           first_tile_of(n + 1, count) * body_count_);
   });
   team.on_each_thread([&](std::size_t n) {
     if (n < count) all_parts[n].place(bodies);

@@ -3,6 +3,7 @@
 #include <sched.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -78,9 +79,11 @@ class ThreadTeam {
 
   std::vector<std::thread> workers_;
   std::vector<Share> shares_;  // of the calling thread, then of the workers
-  std::atomic<unsigned> generation_{0};
-  std::atomic<std::size_t> busy_{0};
-  std::atomic<bool> stop_{false};
+  std::chrono::microseconds patience_;
+  // What is waited for lies alone: those who look at it all the time delay whoever writes beside it.
+  alignas(64) std::atomic<unsigned> generation_{0};
+  alignas(64) std::atomic<std::size_t> busy_{0};
+  alignas(64) std::atomic<bool> stop_{false};
   Call call_ = nullptr;
   void* context_ = nullptr;
   bool bound_ = false;

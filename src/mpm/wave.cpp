@@ -151,7 +151,8 @@ Wave& Wave::operator=(Wave&&) noexcept = default;
 void Wave::Shared::prepare(std::size_t threads) {
   line_of.resize(lines[count]);
   for (std::size_t line = 0; line < count; ++line)
-    for (std::size_t piece = lines[line]; piece < lines[line + 1]; ++piece) line_of[piece] = line;
+    for (std::size_t piece = lines[line]; piece < lines[line + 1]; ++piece)
+      if (line_of[piece] != line) line_of[piece] = line;  // (in the caches of all threads)
   if (awaited.size() < count) awaited = std::vector<Awaited>(count);
   for (std::size_t line = 0; line < count; ++line)
     for (std::size_t stage = 1; stage < stages + (bounded() ? 1 : 0); ++stage)

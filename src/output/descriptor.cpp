@@ -52,8 +52,12 @@ FileVersion Descriptor::version() const {
           status.st_mtim.tv_nsec};
 }
 
-bool Descriptor::lock() {
+bool Descriptor::lock_for_writing() {
   return lock_file(number_, true);
+}
+
+bool Descriptor::lock_for_reading() {
+  return lock_file(number_, false);
 }
 
 void Descriptor::write(std::string_view text) {

@@ -10,7 +10,7 @@ struct ByteRange {
   std::uint64_t begin = 0, size = 0;
 };
 
-/// Differs between files, and when a file has been written to.
+/// Differs between files, and when a file has been written to, as finely as its file system tells the time.
 struct FileVersion {
   std::uint64_t device = 0, number = 0, size = 0;
   std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was last written to
@@ -30,8 +30,10 @@ class Descriptor {
 
   int number() const { return number_; }
   FileVersion version() const;
-  /// Locks the file as HDF5 does, as long as it is open; false when another program has it open under a lock.
-  bool lock();
+  /// Locks the file as HDF5 does, as long as it is open; false when another program has it open under a lock
+  /// that is in the way.
+  bool lock_for_writing();
+  bool lock_for_reading();
   void write(std::string_view text);
   /// Writes all that `source` still has to read.
   void write_all_of(const Descriptor& source);

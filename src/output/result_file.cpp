@@ -77,44 +77,56 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
   return result;
 }
 
-/// False where a copy must take the shadow's place.
-bool ResultFile::bring_shadow_level() const {
-  const Descriptor result(path_, O_RDONLY);
+/// False where a copy must take the shadow's place: one of the two files is not what it was after the last
+/// output, or another program still has the shadow open as the result.h5 that it once was.
+bool ResultFile::bring_shadow_level(const Descriptor& result) const {
   const FileVersion version = result.version();
   Descriptor shadow(shadow_, O_WRONLY);
-  if (version != published_ || !shadow.lock()) return false;
+  if (!shadow.lock_for_writing() || version != published_ || shadow.version() != replaced_) return false;
   for (const ByteRange& part : ahead_) shadow.write_part_of(result, part);
   shadow.truncate(version.size);
   shadow.close();
   return true;
 }
 
-File ResultFile::open_shadow() const {
+File ResultFile::open_shadow(const Descriptor& result) const {
   std::error_code failure;
   if (std::filesystem::exists(shadow_, failure)) {
     try {
-      if (bring_shadow_level()) return File::open_to_write(shadow_);
-    } catch (const Hdf5Error&) {
-      // Another program that had opened it as result.h5 has locked it meanwhile.
+      if (bring_shadow_level(result)) return File::open_to_write(shadow_);
+    } catch (const FileError&) {
+      // It is write-protected, or has been locked meanwhile; what a copy does not cure either, a copy tells.
     }
     remove_file(shadow_);  // (a program that reads it keeps it)
   }
   Descriptor copy(shadow_, O_WRONLY | O_CREAT | O_EXCL);
-  copy.write_all_of(Descriptor(path_, O_RDONLY));
+  copy.write_all_of(result);
   copy.close();
-  return File::open_to_write(shadow_);
+  File file = File::open_to_write(shadow_);
+  if (const std::size_t present = count_steps(file.root()); present != steps_.size())
+    throw FileError(fmt::format(
+        "{}: holds {} outputs, but this run has written {}: another program has changed or replaced it",
+        path_.string(), present, steps_.size()));
+  return file;
 }
 
 void ResultFile::append(const OutputFrame& frame) {
   require_consistent(frame, particles_);
+  // Until the new file has taken its place, so that nobody changes what is about to be replaced.
+  Descriptor result(path_, O_RDONLY);
+  if (!result.lock_for_reading())
+    throw FileError(
+        fmt::format("{}: another program has it open for writing; no output can be added", path_.string()));
+  const FileVersion version = result.version();
   try {
-    File shadow = open_shadow();
+    File shadow = open_shadow(result);
     write_step(shadow.root(), steps_.size(), frame);
     write_series(shadow.root(), steps_.size(), frame);
     ahead_ = shadow.close();
     published_ = Descriptor(shadow_, O_RDONLY).version();
+    replaced_ = version;
     publish();
-  } catch (const FileError&) {
+  } catch (...) {
     std::error_code missing;
     std::filesystem::remove(shadow_, missing);  // half written; the next attempt begins with a copy
     throw;

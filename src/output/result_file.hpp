@@ -32,7 +32,8 @@ struct StoredStep {
 /// would cost ever more. The shadow begins as a copy of result.h5, and is made one again where that is
 /// needed: when the file system cannot exchange names and it has been renamed over result.h5; when another
 /// program still reads it, as a lock shows, as the result.h5 it once was; when another program has changed
-/// result.h5.
+/// either file. During an output, result.h5 is locked for reading, as HDF5 does: a program that honours locks
+/// cannot open for writing what is about to be replaced.
 class ResultFile {
  public:
   /// How the shadow becomes result.h5.
@@ -50,7 +51,8 @@ class ResultFile {
   ResultFile& operator=(ResultFile&&) = default;
   ~ResultFile();
 
-  /// Adds one output. On FileError (disk full, ...) result.h5 is as it was before.
+  /// Adds one output. On FileError (disk full, result.h5 is open for writing elsewhere or holds other outputs
+  /// than those that were written, ...) result.h5 is as it was before.
   void append(const OutputFrame& frame);
   /// Deletes the shadow. result.h5 needs no closing: also an object that is never closed leaves it complete.
   void close();
@@ -64,8 +66,8 @@ class ResultFile {
 
  private:
   ResultFile(const std::filesystem::path& directory, Publishing publishing);
-  File open_shadow() const;
-  bool bring_shadow_level() const;
+  File open_shadow(const Descriptor& result) const;
+  bool bring_shadow_level(const Descriptor& result) const;
   void publish();
 
   std::filesystem::path path_, shadow_;
@@ -73,7 +75,8 @@ class ResultFile {
   std::size_t particles_ = 0;
   std::vector<StoredStep> steps_;
   std::vector<ByteRange> ahead_;  // what result.h5 has and the shadow, if there is one, has not
-  FileVersion published_;         // result.h5 as it was then
+  FileVersion published_;         // result.h5 after the last output
+  FileVersion replaced_;          // the file whose place it took, and which is the shadow now
 };
 
 /// Name of step group `index`: at least five digits.

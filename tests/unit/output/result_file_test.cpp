@@ -1,5 +1,6 @@
 #include "output/result_file.hpp"
 
+#include <sys/fsuid.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -111,6 +112,68 @@ TEST_CASE("What another program adds to a result between two outputs is kept", "
   check_complete(directory.path(), 6);
   const File file = File::open_to_read(result_path(directory.path()));
   CHECK(file.root().text_attribute(".", "note") == "a plate like last year's");
+}
+
+TEST_CASE("What another program changes in a file that an output has just replaced harms no result",
+          "[output]") {
+  const TemporaryDirectory directory;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  for (std::size_t s = 0; s < 6; ++s) {
+    result.append(sample_frame(s));
+    check_complete(directory.path(), s + 1);
+    if (s == 0 || s == 4) continue;
+    // It has opened result.h5 before the output, and goes on with what is the shadow now.
+    File file = File::open_to_write(next_of(result_path(directory.path())));
+    for (int n = 0; n < 40; ++n)
+      file.root().set_attribute(".", "note " + std::to_string(n), std::string(500, 'x'));
+    file.close();
+  }
+}
+
+TEST_CASE("A result that was replaced by an older one is an error, not a gap", "[output]") {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = result_path(directory.path()), older = directory.path() / "older.h5";
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  for (std::size_t s = 0; s < 3; ++s) {
+    if (s == 2) std::filesystem::copy_file(path, older);
+    result.append(sample_frame(s));
+  }
+  std::filesystem::rename(older, path);
+  for (int attempt = 0; attempt < 2; ++attempt)
+    CHECK_THROWS_WITH(result.append(sample_frame(3)),
+                      contains_text("holds 2 outputs, but this run has written 3"));
+  check_complete(directory.path(), 2);
+}
+
+TEST_CASE("A result that is write-protected or that others read goes on, one that others write does not",
+          "[output]") {
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = result_path(directory.path());
+  const bool root = geteuid() == 0;  // which no protection stops; files are then those of "nobody"
+  constexpr unsigned nobody = 65534;
+  if (root) REQUIRE(chown(directory.path().c_str(), nobody, nobody) == 0);
+  if (root) setfsuid(nobody);
+  {
+    ResultFile result = ResultFile::create(directory.path(), sample_header());
+    for (std::size_t s = 0; s < 6; ++s) {
+      result.append(sample_frame(s));
+      using std::filesystem::perms;
+      if (s == 1) std::filesystem::permissions(path, perms::owner_read | perms::group_read);
+    }
+    {
+      const File reader = File::open_to_read(path);
+      result.append(sample_frame(6));
+    }
+    {
+      File writer = File::open_to_write(path);
+      CHECK_THROWS_WITH(result.append(sample_frame(7)),
+                        contains_text("result.h5: another program has it open for writing"));
+      writer.close();
+    }
+    result.append(sample_frame(7));
+    check_complete(directory.path(), 8);
+  }
+  if (root) setfsuid(0);
 }
 
 TEST_CASE("Without exchange of names the shadow is renamed", "[output]") {
