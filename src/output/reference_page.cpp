@@ -28,7 +28,8 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   file (`.NAME.next`), forced to disk and put in place by renaming: at any moment, also after `kill -9` or a power cut, each
   of them is complete, either in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
 - `result.h5` therefore always holds the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
-  read while the run goes on; a program that has it open keeps the version that it opened.
+  read while the run goes on; a program that has it open keeps the version that it opened. What another program adds between two outputs is
+  kept; during an output the file is locked for reading, and cannot be opened for writing by who honours locks, as HDF5 does.
 - A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line. After a power cut (not
   after a kill) last rows may be missing.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
@@ -51,7 +52,8 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
 
 ## When something cannot be written
 
-- The run ends with status 4; the message names the file and the system's reason. Completed outputs stay as they are. The space of the hidden
+- The run ends with status 4; the message names the file and the system's reason (or that another program has `result.h5` open for writing, or has
+  put one with other outputs in its place). Completed outputs stay as they are. The space of the hidden
   file is given back, and a checkpoint is tried: where it fits, `--resume` goes on at that very step when the cause has been mended.
 - Messages and progress are not part of the result: a terminal that has gone, a broken pipe or a full disk behind them ends no run.
 - SIGINT, SIGTERM and SIGHUP (without `nohup`) end a run after the step under way, with a checkpoint, and status 130, 143 or 129; a second SIGINT, at
