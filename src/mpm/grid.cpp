@@ -71,15 +71,16 @@ void Grid::fill_lists(const std::vector<Body>& bodies) {
   for (std::size_t body = 0; body < body_count_; ++body)
     if (!bodies[body].coasting) k = append(bodies[body].particles, body, k, next);
   scattered_ = 0;
-  for (std::size_t tile = 0; tile < tile_block_.size(); ++tile) scattered_ += scattered_in(tile);
+  for (std::size_t tile = 0; tile < tile_block_.size(); ++tile)
+    for (std::size_t body = 0; body < body_count_; ++body) scattered_ += scattered_in(particles(tile, body));
 }
 
-std::size_t Grid::scattered_in(std::size_t tile) const {
+std::size_t Grid::scattered_in(Range list) {
   std::size_t scattered = 0;
-  for (std::size_t body = 0; body < body_count_; ++body)
-    for_chunks(*this, tile, body, [&](const Chunk& chunk) {
-      if (!chunk.contiguous()) scattered += chunk.size();
-    });
+  for (const std::uint32_t* at = list.begin; at < list.end; at += Chunk::capacity) {
+    const std::size_t size = std::min(static_cast<std::size_t>(list.end - at), Chunk::capacity);
+    if (!Chunk::consecutive(at, size)) scattered += size;
+  }
   return scattered;
 }
 

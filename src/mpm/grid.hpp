@@ -213,7 +213,7 @@ class Grid {
   void add_neighbours(bool by_row);
   std::array<int, 4> reach(const Block& block) const;
   void mark_constraints();
-  std::size_t scattered_in(std::size_t tile) const;
+  static std::size_t scattered_in(Range list);
 
   void find_movers(std::size_t tile, const std::vector<Body>& bodies);
   std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
@@ -226,7 +226,7 @@ class Grid {
   std::size_t first_tile_of(std::size_t thread, std::size_t threads) const;
   void sort_movers();
   void shift_lists(std::size_t first, std::size_t last);
-  void merge_list(std::size_t list, const Particles& p);
+  Range merge_list(std::size_t list, const Particles& p);
 
   double cell_ = 1.0;
   ShapeKind shape_ = ShapeKind::linear;

@@ -80,8 +80,9 @@ void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
     if (serve) shift_lists(first * body_count_, last * body_count_);
     found_[thread].scattered = 0;
     for (std::size_t tile = first; tile < last; ++tile) {
-      for (std::size_t n = 0; n < body_count_; ++n) merge_list(tile * body_count_ + n, bodies[n].particles);
-      found_[thread].scattered += scattered_in(tile);
+      // (Where a list ends is where the next begins, which another thread may be about to find.)
+      for (std::size_t n = 0; n < body_count_; ++n)
+        found_[thread].scattered += scattered_in(merge_list(tile * body_count_ + n, bodies[n].particles));
     }
   });
   scattered_ = 0;
@@ -219,18 +220,18 @@ void Grid::shift_lists(std::size_t first, std::size_t last) {
 }
 
 /// Makes a list of the old one, without those who left and with those who came, by rising identity.
-void Grid::merge_list(std::size_t list, const Particles& p) {
+Grid::Range Grid::merge_list(std::size_t list, const Particles& p) {
   const auto those_of = [](const auto& movers, std::size_t of) {
     const auto first = std::lower_bound(movers.begin(), movers.end(), of,
                                         [](const auto& m, std::size_t l) { return m.list < l; });
     return std::pair(first, std::find_if(first, movers.end(), [of](const auto& m) { return m.list != of; }));
   };
   auto [comer, last_comer] = those_of(comers_, list);
-  std::uint32_t* to = index_.data() + offset_[list];
+  std::uint32_t *const merged = index_.data() + offset_[list], *to = merged;
   const std::ptrdiff_t old = old_.list.empty() ? static_cast<std::ptrdiff_t>(list) : old_.list[list];
   if (old < 0) {
     for (; comer != last_comer; ++comer) *to++ = comer->particle;
-    return;
+    return {merged, to};
   }
   const auto from = static_cast<std::size_t>(old);
   auto [leaver, last_leaver] = those_of(leavers_, from);
@@ -258,7 +259,7 @@ void Grid::merge_list(std::size_t list, const Particles& p) {
       entry = place_of_comer();
     }
   }
-  std::copy(at, end, to);
+  return {merged, std::copy(at, end, to)};
 }
 
 }  // namespace vitrum::mpm
