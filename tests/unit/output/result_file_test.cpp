@@ -43,6 +43,26 @@ void check_complete(const std::filesystem::path& directory, std::size_t outputs)
   }
 }
 
+/// No protection stops root: as long as it lives, files are opened and made as "nobody" does, whose
+/// `directory` then is.
+class AsNobody {
+ public:
+  explicit AsNobody(const std::filesystem::path& directory) {
+    constexpr unsigned nobody = 65534;
+    if (!root_) return;
+    REQUIRE(chown(directory.c_str(), nobody, nobody) == 0);
+    setfsuid(nobody);
+  }
+  ~AsNobody() {
+    if (root_) setfsuid(0);
+  }
+  AsNobody(const AsNobody&) = delete;
+  AsNobody& operator=(const AsNobody&) = delete;
+
+ private:
+  bool root_ = geteuid() == 0;
+};
+
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -149,31 +169,25 @@ TEST_CASE("A result that is write-protected or that others read goes on, one tha
           "[output]") {
   const TemporaryDirectory directory;
   const std::filesystem::path path = result_path(directory.path());
-  const bool root = geteuid() == 0;  // which no protection stops; files are then those of "nobody"
-  constexpr unsigned nobody = 65534;
-  if (root) REQUIRE(chown(directory.path().c_str(), nobody, nobody) == 0);
-  if (root) setfsuid(nobody);
-  {
-    ResultFile result = ResultFile::create(directory.path(), sample_header());
-    for (std::size_t s = 0; s < 6; ++s) {
-      result.append(sample_frame(s));
-      using std::filesystem::perms;
-      if (s == 1) std::filesystem::permissions(path, perms::owner_read | perms::group_read);
-    }
-    {
-      const File reader = File::open_to_read(path);
-      result.append(sample_frame(6));
-    }
-    {
-      File writer = File::open_to_write(path);
-      CHECK_THROWS_WITH(result.append(sample_frame(7)),
-                        contains_text("result.h5: another program has it open for writing"));
-      writer.close();
-    }
-    result.append(sample_frame(7));
-    check_complete(directory.path(), 8);
+  const AsNobody not_root(directory.path());
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  for (std::size_t s = 0; s < 6; ++s) {
+    result.append(sample_frame(s));
+    using std::filesystem::perms;
+    if (s == 1) std::filesystem::permissions(path, perms::owner_read | perms::group_read);
   }
-  if (root) setfsuid(0);
+  {
+    const File reader = File::open_to_read(path);
+    result.append(sample_frame(6));
+  }
+  {
+    File writer = File::open_to_write(path);
+    CHECK_THROWS_WITH(result.append(sample_frame(7)),
+                      contains_text("result.h5: another program has it open for writing"));
+    writer.close();
+  }
+  result.append(sample_frame(7));
+  check_complete(directory.path(), 8);
 }
 
 TEST_CASE("Without exchange of names the shadow is renamed", "[output]") {
