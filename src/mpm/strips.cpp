@@ -9,8 +9,6 @@ namespace {
 
 /// A strip of fewer tiles is not worth a thread's asking for it.
 constexpr std::size_t fewest_tiles = 2;
-/// A piece of more tiles would leave other threads waiting.
-constexpr std::size_t most_tiles = 4;
 
 std::size_t count_distinct(std::vector<std::int32_t>& values) {
   std::sort(values.begin(), values.end());
@@ -55,9 +53,9 @@ std::size_t Strips::most_tiles_in(std::size_t strips) const {
 
 void Strips::add_strip(const Piece& strip) {
   const std::size_t tiles = strip.last_tile - strip.first_tile, empty = strip.last_empty - strip.first_empty,
-                    count = std::max<std::size_t>(1, (tiles + most_tiles - 1) / most_tiles);
+                    count = std::max<std::size_t>(1, tiles);
   for (std::size_t n = 0; n < count; ++n)
-    pieces.push_back({strip.first_tile + tiles * n / count, strip.first_tile + tiles * (n + 1) / count,
+    pieces.push_back({strip.first_tile + std::min(n, tiles), strip.first_tile + std::min(n + 1, tiles),
                       strip.first_empty + empty * n / count, strip.first_empty + empty * (n + 1) / count});
   first_pieces.push_back(pieces.size());
 }

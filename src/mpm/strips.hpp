@@ -9,10 +9,11 @@ struct Block;
 
 /// The blocks of a grid in strips of whole rows, or of whole columns where there are more of these than rows:
 /// a strip shares nodes with the two beside it only, and short strips leave more of them in the cache. Strips
-/// come in pieces for threads to share.
+/// come in pieces for threads to share, each as small as can be: what one thread has more than another, the
+/// other waits for.
 struct Strips {
-  /// Tiles [first_tile, last_tile) with their blocks (of the same numbers), and the blocks [first_empty,
-  /// last_empty) that hold no particles.
+  /// A tile, unless the strip has none: the tiles [first_tile, last_tile), with their blocks (of the same
+  /// numbers), and the blocks [first_empty, last_empty) that hold no particles.
   struct Piece {
     std::size_t first_tile, last_tile, first_empty, last_empty;
 

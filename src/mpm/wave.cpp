@@ -20,12 +20,9 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Pieces whose stage may be taken.
+/// Pieces [begin, end) whose stage may be taken.
 struct Ready {
   std::size_t stage, begin, end;
-};
-struct Piece {
-  std::size_t stage, piece;
 };
 
 /// What a thread has before it, and what it has behind it.
@@ -56,14 +53,17 @@ class alignas(64) Workload {
     if (!prolong(more)) ready_.push_back(more);
     some_.store(true, std::memory_order_relaxed);
   }
-  /// For the thread itself: it goes on with what it has just made ready.
-  std::optional<Piece> newest() { return take(true); }
+  /// For the thread itself: it goes on with what it has just made ready, a line or as much of a long one as
+  /// leaves others something to help with. line_of, by piece.
+  std::optional<Ready> newest(const std::vector<std::size_t>& line_of) { return take(true, 8, line_of); }
   /// For those who help: what lies farthest before the thread.
-  std::optional<Piece> oldest() { return take(false); }
+  std::optional<Ready> oldest(const std::vector<std::size_t>& line_of) { return take(false, 4, line_of); }
 
   /// Pieces that the thread has taken through their last stage.
   std::size_t over() const { return over_.load(std::memory_order_acquire); }
-  void count_over() { over_.store(over_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
+  void count_over(std::size_t more) {
+    over_.store(over_.load(std::memory_order_relaxed) + more, std::memory_order_release);
+  }
 
   /// What the pieces of the share have cost, s; who has taken them does not matter.
   double seconds() const { return seconds_.load(std::memory_order_relaxed); }
@@ -82,12 +82,22 @@ class alignas(64) Workload {
     return false;
   }
   /// newest: the newest of what is ready, from the end where the thread is; else the oldest, from the other.
-  std::optional<Piece> take(bool newest) {
+  /// At most so many pieces, all of one line.
+  std::optional<Ready> take(bool newest, std::size_t most, const std::vector<std::size_t>& line_of) {
     if (!some_.load(std::memory_order_relaxed)) return {};  // (a look, not a promise)
     const std::lock_guard lock(mutex_);
     if (first_ == ready_.size()) return {};
     Ready& ready = newest ? ready_.back() : ready_[first_];
-    const Piece piece{ready.stage, newest != downwards_ ? ready.begin++ : --ready.end};
+    Ready taken = ready;
+    if (newest != downwards_) {
+      taken.end = std::min(ready.end, ready.begin + most);
+      while (line_of[taken.end - 1] != line_of[ready.begin]) --taken.end;
+      ready.begin = taken.end;
+    } else {
+      taken.begin = std::max(ready.begin + most, ready.end) - most;
+      while (line_of[taken.begin] != line_of[ready.end - 1]) ++taken.begin;
+      ready.end = taken.begin;
+    }
     if (ready.begin == ready.end) {
       if (newest)
         ready_.pop_back();
@@ -95,7 +105,7 @@ class alignas(64) Workload {
         ++first_;
     }
     some_.store(first_ != ready_.size(), std::memory_order_relaxed);
-    return piece;
+    return taken;
   }
 
   std::mutex mutex_;
@@ -132,10 +142,10 @@ struct Wave::Shared {
 
   void prepare(std::size_t threads);
   void work(std::size_t thread);
-  void take(const Piece& piece, std::size_t thread);
+  void take(const Ready& pieces, std::size_t thread);
   bool help(std::size_t thread);
   bool is_over() const;
-  void finish(const Piece& piece, std::size_t thread);
+  void finish(const Ready& pieces, std::size_t thread);
   void make_ready(std::size_t stage, std::size_t line);
   void add(std::size_t thread, std::size_t stage, std::size_t line);
   void begin_lines(std::size_t thread);
@@ -162,16 +172,16 @@ void Wave::Shared::prepare(std::size_t threads) {
   if (workloads.size() != threads) workloads = std::vector<Workload>(threads);
   for (std::size_t n = 0; n < threads; ++n) {
     const bool some = shares[n] < shares[n + 1];
-    workloads[n].start(n % 2 == 1, some ? line_of[shares[n]] : 0, some ? line_of[shares[n + 1] - 1] + 1 : 0);
+    workloads[n].start(n % 2 == 0, some ? line_of[shares[n]] : 0, some ? line_of[shares[n + 1] - 1] + 1 : 0);
     for (std::size_t k = 0; k < std::min(at_once, workloads[n].lines()); ++k) add(n, 0, workloads[n].line(k));
   }
   stopped = false;
 }
 
-void Wave::Shared::take(const Piece& piece, std::size_t thread) {
+void Wave::Shared::take(const Ready& pieces, std::size_t thread) {
   try {
-    call(context, piece.stage, piece.piece);
-    finish(piece, thread);  // which may want memory
+    for (std::size_t piece = pieces.begin; piece < pieces.end; ++piece) call(context, pieces.stage, piece);
+    finish(pieces, thread);  // which may want memory
   } catch (...) {
     stopped = true;
     throw;
@@ -182,10 +192,10 @@ void Wave::Shared::take(const Piece& piece, std::size_t thread) {
 bool Wave::Shared::help(std::size_t thread) {
   for (std::size_t k = 1; k < workloads.size(); ++k) {
     Workload& other = workloads[(thread + k) % workloads.size()];
-    const std::optional<Piece> piece = other.oldest();
-    if (!piece) continue;
+    const std::optional<Ready> pieces = other.oldest(line_of);
+    if (!pieces) continue;
     const Clock::time_point start = Clock::now();
-    take(*piece, thread);
+    take(*pieces, thread);
     other.count_seconds(seconds_since(start));
     return true;
   }
@@ -198,12 +208,14 @@ bool Wave::Shared::is_over() const {
   return over == lines[count];
 }
 
-/// Makes ready what has waited for the piece as the last one.
-void Wave::Shared::finish(const Piece& done, std::size_t thread) {
-  const std::size_t stage = done.stage + 1, of = line_of[done.piece];
+/// Makes ready what has waited for the pieces, all of one line, as the last ones.
+void Wave::Shared::finish(const Ready& done, std::size_t thread) {
+  const std::size_t stage = done.stage + 1, of = line_of[done.begin];
+  const auto size = static_cast<std::uint32_t>(done.end - done.begin);
   for (std::size_t line = before(of); line <= after(of) && (stage < stages || bounded()); ++line)
-    if (awaited[line].pieces[stage].fetch_sub(1, std::memory_order_acq_rel) == 1) make_ready(stage, line);
-  if (stage == stages) workloads[thread].count_over();
+    if (awaited[line].pieces[stage].fetch_sub(size, std::memory_order_acq_rel) == size)
+      make_ready(stage, line);
+  if (stage == stages) workloads[thread].count_over(size);
 }
 
 /// Every piece goes to the thread whose share it is in: its data are in that thread's cache.
@@ -243,10 +255,10 @@ void Wave::Shared::work(std::size_t thread) {
   Clock::time_point since = Clock::now();  // the thread has been at its share, or has waited
   bool waits = false;
   for (unsigned looks = 0; !stopped.load(std::memory_order_relaxed);) {
-    if (const std::optional<Piece> piece = own.newest()) {
+    if (const std::optional<Ready> pieces = own.newest(line_of)) {
       if (waits) since = Clock::now();
       waits = false;
-      take(*piece, thread);
+      take(*pieces, thread);
       continue;
     }
     if (!waits) {

@@ -12,8 +12,9 @@ namespace vitrum::mpm {
 /// Takes work that lies in lines through stages, as a wave runs through the lines: a stage of a line is taken
 /// as soon as the stage before is over for it and for the lines beside it. What a line needs is then still in
 /// the cache when the next stage asks for it, and threads meet once, not after every stage. Each thread takes
-/// its own share of the lines through all stages; two neighbours begin where both are ready or end where both
-/// are, so that no line waits for long, and is out of the cache, when the one beside it comes.
+/// its own share of the lines through all stages. Two neighbours begin where their shares meet, or both end
+/// there (of two threads: begin, and none waits for the other before its share is over), so that no line
+/// waits for long, and is out of the cache, when the one beside it comes.
 class Wave {
  public:
   static constexpr std::size_t most_stages = 8;

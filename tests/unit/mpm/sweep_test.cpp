@@ -55,6 +55,7 @@ TEST_CASE("Strips hold every tile and block once, and share nodes with the strip
       for (std::size_t strip = 0; strip + 1 < strips.first_pieces.size(); ++strip) {
         REQUIRE(strips.first_pieces[strip] < strips.first_pieces[strip + 1]);
         for (std::size_t n = strips.first_pieces[strip]; n < strips.first_pieces[strip + 1]; ++n) {
+          CHECK(strips.pieces[n].last_tile - strips.pieces[n].first_tile <= 1);
           strips.pieces[n].for_tiles([&](std::size_t tile) { ++tiles[tile]; });
           strips.pieces[n].for_blocks([&](std::size_t block) { ++blocks[block], strip_of[block] = strip; });
         }

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -18,10 +20,11 @@ using test::Random;
 
 namespace {
 
+/// Lines of one to 30 pieces, most of them short.
 std::vector<std::size_t> random_lines(Random& random, std::size_t count) {
   std::vector<std::size_t> lines{0};
   for (std::size_t line = 0; line < count; ++line)
-    lines.push_back(lines.back() + 1 + static_cast<std::size_t>(random.uniform(0.0, 4.0)));
+    lines.push_back(lines.back() + static_cast<std::size_t>(std::exp(random.uniform(0.0, std::log(31.0)))));
   return lines;
 }
 
@@ -104,4 +107,27 @@ TEST_CASE("An exception ends a wave and reaches the caller; the next wave is who
         CHECK(taken == 36);
       }
   }
+}
+
+TEST_CASE("Two threads begin a wave where their shares meet", "[threads]") {
+  std::vector<std::size_t> lines;
+  for (std::size_t piece = 0; piece <= 80; ++piece) lines.push_back(piece);
+  ThreadTeam team(2);
+  Wave wave;
+  const std::size_t border = wave.share_out(team, lines, pieces_before)[1];
+  REQUIRE(border == 40);
+  std::mutex mutex;
+  std::map<std::thread::id, std::size_t> first;  // piece of each thread
+  const auto begun = [&](std::size_t piece) {
+    const std::lock_guard lock(mutex);
+    first.try_emplace(std::this_thread::get_id(), piece);
+    return first.size();
+  };
+  wave.run(team, lines, 3, 4, [&](std::size_t, std::size_t piece) {
+    // Who is late must find what is its own.
+    while (begun(piece) < 2) std::this_thread::yield();
+  });
+  CHECK(first.at(std::this_thread::get_id()) == border - 1);
+  for (const auto& [thread, piece] : first)
+    if (thread != std::this_thread::get_id()) CHECK(piece == border);
 }
