@@ -13,8 +13,8 @@ namespace vitrum::mpm {
 /// as soon as the stage before is over for it and for the lines beside it. What a line needs is then still in
 /// the cache when the next stage asks for it, and threads meet once, not after every stage. Each thread takes
 /// its own share of the lines through all stages. Two neighbours begin where their shares meet, or both end
-/// there (of two threads: begin, and none waits for the other before its share is over), so that no line
-/// waits for long, and is out of the cache, when the one beside it comes.
+/// there, so that no line waits for long, and is out of the cache, when the one beside it comes. Two threads
+/// that begin together have that behind them soon, and neither waits for the other any more.
 class Wave {
  public:
   static constexpr std::size_t most_stages = 8;
