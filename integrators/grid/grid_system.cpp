@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/stress.hpp"
 
@@ -63,17 +64,19 @@ void GridSystem::start(double* y) const {
 bool GridSystem::deform(double t, const double* y) {
   mpm::fill_field(system_, nodes_, y, t - start_time_, Field::velocity_0);
   mpm::gather_gradient(system_, gradients_);
-  bool changed = false;
+  Flag changed;
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Deformation& d = deformations_[n];
-    const auto& p = system_.bodies[n].particles;
-    for (std::size_t i = 0; i < p.size && !changed; ++i) {
-      const SymmetricTensor e = d.at(i).strain();
-      changed = e.rr != d.committed_strain[0][i] || e.zz != d.committed_strain[1][i] ||
-                e.tt != d.committed_strain[2][i] || e.rz != d.committed_strain[3][i];
-    }
+    for_particles(system_, n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !changed.raised(); ++i) {
+        const SymmetricTensor e = d.at(i).strain();
+        if (e.rr != d.committed_strain[0][i] || e.zz != d.committed_strain[1][i] ||
+            e.tt != d.committed_strain[2][i] || e.rz != d.committed_strain[3][i])
+          changed.raise();
+      }
+    });
   }
-  return changed;
+  return changed.raised();
 }
 
 /// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment
@@ -83,15 +86,17 @@ void GridSystem::set_increments(bool as_committed) {
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
-    for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f = d.at(i);
-      const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i],
-                                   d.committed_strain[2][i], d.committed_strain[3][i]};
-      const SymmetricTensor change = rotate(f.strain() - before, rotation_by(d.committed_turn[i]));
-      p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
-      p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
-      p.spin_increment[i] = (as_committed ? f.turn() : 0.0) - d.committed_turn[i];
-    }
+    for_particles(system_, n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const FiniteStrain f = d.at(i);
+        const SymmetricTensor before{d.committed_strain[0][i], d.committed_strain[1][i],
+                                     d.committed_strain[2][i], d.committed_strain[3][i]};
+        const SymmetricTensor change = rotate(f.strain() - before, rotation_by(d.committed_turn[i]));
+        p.strain_increment[0][i] = change.rr, p.strain_increment[1][i] = change.zz;
+        p.strain_increment[2][i] = change.tt, p.strain_increment[3][i] = change.rz;
+        p.spin_increment[i] = (as_committed ? f.turn() : 0.0) - d.committed_turn[i];
+      }
+    });
   }
 }
 
@@ -102,26 +107,29 @@ void GridSystem::try_stress(double t, bool changed) {
   } else {  // exactly the committed state, turned back to the phase's start
     for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
       Particles& p = system_.bodies[n].particles;
-      const mpm::TrialColumns& committed = trial_.of(n);
-      for (std::size_t i = 0; i < p.size; ++i) {
-        const Rotation back = rotation_by(p.spin_increment[i]);
-        const auto& from = committed.elastic_strain;
-        auto& to = p.elastic_strain;
-        const SymmetricTensor e = rotate({from[0][i], from[1][i], from[2][i], from[3][i]}, back);
-        to[0][i] = e.rr, to[1][i] = e.zz, to[2][i] = e.tt, to[3][i] = e.rz;
-      }
+      const auto& from = trial_.of(n).elastic_strain;
+      for_particles(system_, n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Rotation back = rotation_by(p.spin_increment[i]);
+          auto& to = p.elastic_strain;
+          const SymmetricTensor e = rotate({from[0][i], from[1][i], from[2][i], from[3][i]}, back);
+          to[0][i] = e.rr, to[1][i] = e.zz, to[2][i] = e.tt, to[3][i] = e.rz;
+        }
+      });
       p.tried_stress = mpm::stress_of(system_.bodies[n]);
     }
   }
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     Particles& p = system_.bodies[n].particles;
     const Deformation& d = deformations_[n];
-    for (std::size_t i = 0; i < p.size; ++i) {
-      const FiniteStrain f = d.at(i);
-      auto& s = p.tried_stress;
-      const auto P = f.nominal({s[0][i], s[1][i], s[2][i], s[3][i]});
-      s[0][i] = P[0], s[3][i] = P[1], p.tried_stress_zr[i] = P[2], s[1][i] = P[3];
-    }
+    for_particles(system_, n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const FiniteStrain f = d.at(i);
+        auto& s = p.tried_stress;
+        const auto P = f.nominal({s[0][i], s[1][i], s[2][i], s[3][i]});
+        s[0][i] = P[0], s[3][i] = P[1], p.tried_stress_zr[i] = P[2], s[1][i] = P[3];
+      }
+    });
   }
 }
 
@@ -196,12 +204,18 @@ void GridSystem::commit(double t, const double* y) {
   mpm::update_stress(system_, t - committed_time_);
   for (std::size_t body = 0; body < system_.bodies.size(); ++body) {
     Deformation& d = deformations_[body];
+    for_particles(system_, body, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const FiniteStrain f = d.at(i);
+        const SymmetricTensor& e = f.strain();
+        d.committed_strain[0][i] = e.rr, d.committed_strain[1][i] = e.zz;
+        d.committed_strain[2][i] = e.tt, d.committed_strain[3][i] = e.rz;
+        d.committed_turn[i] = f.turn();
+      }
+    });
     for (std::size_t i = 0; i < system_.bodies[body].particles.size; ++i) {
-      const FiniteStrain f = d.at(i);
-      const SymmetricTensor& e = f.strain();
-      d.committed_strain[0][i] = e.rr, d.committed_strain[1][i] = e.zz;
-      d.committed_strain[2][i] = e.tt, d.committed_strain[3][i] = e.rz;
-      d.committed_turn[i] = f.turn();
+      const SymmetricTensor e{d.committed_strain[0][i], d.committed_strain[1][i], d.committed_strain[2][i],
+                              d.committed_strain[3][i]};
       deformation_ = std::max({deformation_, norm(e), std::abs(d.committed_turn[i])});
     }
   }

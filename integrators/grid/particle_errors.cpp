@@ -27,37 +27,48 @@ double ParticleSystem::tolerance_of(Quantity quantity, std::size_t body, std::si
 }
 
 void ParticleSystem::error_weights(double* weights) const {
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    const std::size_t particles = system_.bodies[n].particles.size;
+  for_each_part([&](const Part& part, std::size_t) {
+    const auto [n, begin, end] = part;
     for (std::size_t a = 0; a < strain; ++a)
-      std::fill_n(weights + place(n, a), particles, 1.0 / tolerance_of(quantity_of(a), n, 0));
-    for (std::size_t i = 0; i < particles; ++i) {
-      const double weight = 1.0 / tolerance_of(Quantity::strain, n, i);
-      for (std::size_t a = strain; a < arrays(); ++a) weights[place(n, a) + i] = weight;
-    }
-  }
+      std::fill(weights + place(n, a) + begin, weights + place(n, a) + end,
+                1.0 / tolerance_of(quantity_of(a), n, 0));
+    double* of_strain = weights + place(n, strain);
+    for (std::size_t i = begin; i < end; ++i) of_strain[i] = 1.0 / tolerance_of(Quantity::strain, n, i);
+    for (std::size_t a = strain + 1; a < arrays(); ++a)
+      std::copy(of_strain + begin, of_strain + end, weights + place(n, a) + begin);
+  });
   // The work follows from the others; it steers nothing.
   if (works_) weights[size_ - 1] = 0.0;
 }
 
 void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) const {
-  std::array<double, 3> sums{}, counts{};
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    const std::size_t particles = system_.bodies[n].particles.size;
+  using Squares = std::array<double, 3>;  // of relative errors, summed, by quantity
+  std::vector<Squares> squares(parts_.size(), Squares{});
+  for_each_part([&](const Part& part, std::size_t k) {
+    const auto [n, begin, end] = part;
+    const double* last_strain = last_strain_[n].data();
     for (std::size_t a = 0; a < arrays(); ++a) {
-      const auto group = static_cast<std::size_t>(quantity_of(a));
-      const double* of = errors + place(n, a);
-      for (std::size_t i = 0; i < particles; ++i) {
-        const double relative = of[i] * tolerance_ / tolerance_of(quantity_of(a), n, i);
-        sums[group] += relative * relative;
+      const double* error = errors + place(n, a);
+      const bool of_strain = quantity_of(a) == Quantity::strain;
+      const double scale = tolerance_of(quantity_of(a), n, begin) / tolerance_;
+      double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t i = begin; i < end; ++i) {
+        const double relative = error[i] / (of_strain ? scales_.strain + last_strain[i] : scale);
+        sum += relative * relative;
       }
-      counts[group] += static_cast<double>(particles);
+      squares[k][static_cast<std::size_t>(quantity_of(a))] += sum;
     }
-  }
-  estimate.position += std::sqrt(sums[0] / counts[0]);
-  estimate.velocity += std::sqrt(sums[1] / counts[1]);
-  estimate.strain += std::sqrt(sums[2] / counts[2]);
-  estimate.total += std::sqrt((sums[0] + sums[1] + sums[2]) / (counts[0] + counts[1] + counts[2]));
+  });
+  Squares sums{};
+  for (const Squares& of_part : squares)
+    for (std::size_t q = 0; q < sums.size(); ++q) sums[q] += of_part[q];
+  const auto particles = static_cast<double>(system_.particle_count());
+  const double vectors = 2.0 * particles, strains = static_cast<double>(arrays() - strain) * particles;
+  estimate.position += std::sqrt(sums[0] / vectors);
+  estimate.velocity += std::sqrt(sums[1] / vectors);
+  estimate.strain += std::sqrt(sums[2] / strains);
+  estimate.total += std::sqrt((sums[0] + sums[1] + sums[2]) / (2.0 * vectors + strains));
 }
 
 double ParticleSystem::tolerance_of(std::size_t unknown) const {

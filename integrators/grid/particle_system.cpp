@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
 
 namespace vitrum {
-namespace {
-
-constexpr std::size_t chunk_size = 1024;
-
-/// Calls f(begin, end) for chunks of a body's particles.
-template <class F>
-void for_chunks(System& system, std::size_t size, F&& f) {
-  system.team->for_each_chunk((size + chunk_size - 1) / chunk_size, [&](std::size_t k) {
-    f(k * chunk_size, std::min(size, (k + 1) * chunk_size));
-  });
-}
-
-}  // namespace
-
 ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double tolerance,
                                double oscillation_limit)
     : system_(system),
@@ -37,6 +25,8 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
     system.bodies[n].particles.keep_increments();
+    for (std::size_t i = 0; i < particles; i += most_in_part)
+      parts_.push_back({n, i, std::min(particles, i + most_in_part)});
     first_.push_back(size_);
     size_ += arrays() * particles;
     for (auto& column : start_[n].strain) column.assign(particles, 0.0);
@@ -54,10 +44,42 @@ std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, con
   return {first, first + n, start_[body].no_strain.data(), first + 2 * n};
 }
 
+/// Puts the parts in the order of the tiles that they lie in: threads have the same particles here as on the
+/// grid, as far as the shares of both are the same.
+void ParticleSystem::order_parts() {
+  const mpm::Grid& grid = system_.grid;
+  std::vector<std::vector<std::size_t>> tiles(
+      system_.bodies.size());  // by body and part: of its first particle
+  for (std::size_t n = 0; n < tiles.size(); ++n)
+    tiles[n].assign(system_.bodies[n].particles.size / most_in_part + 1, 0);
+  for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile)
+    for (std::size_t n = 0; n < tiles.size(); ++n) {
+      const mpm::Grid::Range range = grid.particles(tile, n);
+      for (const std::uint32_t* i = range.begin; i < range.end; ++i)
+        if (*i % most_in_part == 0) tiles[n][*i / most_in_part] = tile;
+    }
+  const auto place_of = [&](const Part& part) {
+    return std::array{tiles[part.body][part.begin / most_in_part], part.body, part.begin};
+  };
+  std::sort(parts_.begin(), parts_.end(),
+            [&](const Part& a, const Part& b) { return place_of(a) < place_of(b); });
+}
+
+void ParticleSystem::for_ranges(RangeTask task, void* context) const {
+  for_each_part([&](const Part& part, std::size_t k) {
+    for (std::size_t a = 0; a < arrays(); ++a) {
+      const std::size_t first = place(part.body, a);
+      task(context, k, first + part.begin, first + part.end);
+    }
+    if (works_ && k + 1 == parts_.size()) task(context, k, size_ - 1, size_);
+  });
+}
+
 void ParticleSystem::begin(double* y) {
   // Always, so that the order of the unknowns follows from the positions, not from the history.
   system_.grid_is_stale = true;
   mpm::refresh_grid(system_, mpm::Storage::sorted);
+  order_parts();
   std::fill(y, y + size_, 0.0);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Particles& p = system_.bodies[n].particles;
@@ -74,24 +96,27 @@ void ParticleSystem::begin(double* y) {
 
 /// Positions and velocities of the trial in place. Particles beyond the axis are represented by their images.
 void ParticleSystem::load(const double* y) {
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    Particles& p = system_.bodies[n].particles;
-    for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = 0; c < 2; ++c) {
-        const double *d = y + place(n, displacement + c), *v = y + place(n, velocity + c);
-        for (std::size_t i = begin; i < end; ++i) {
-          p.position[c][i] = start_[n].position[c][i] + d[i];
-          p.velocity[c][i] = v[i];
-        }
-      }
-    });
-    mirrored_[n].clear();
-    if (!system_.axisymmetric) continue;
+  Flag beyond;
+  for_each_part([&](const Part& part, std::size_t) {
+    Particles& p = system_.bodies[part.body].particles;
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double *d = y + place(part.body, displacement + c), *v = y + place(part.body, velocity + c);
+      const double* from = start_[part.body].position[c].data();
+      double *x = p.position[c].data(), *to = p.velocity[c].data();
+#pragma GCC ivdep
+      for (std::size_t i = part.begin; i < part.end; ++i) x[i] = from[i] + d[i], to[i] = v[i];
+    }
+    if (!system_.axisymmetric) return;
     const double* r = p.position[0].data();
-    int beyond = 0;
-#pragma omp simd reduction(| : beyond)
-    for (std::size_t i = 0; i < p.size; ++i) beyond |= r[i] < 0.0 ? 1 : 0;
-    for (std::size_t i = 0; beyond != 0 && i < p.size; ++i)
+    int some = 0;
+#pragma omp simd reduction(| : some)
+    for (std::size_t i = part.begin; i < part.end; ++i) some |= r[i] < 0.0 ? 1 : 0;
+    if (some != 0) beyond.raise();
+  });
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+    mirrored_[n].clear();
+    Particles& p = system_.bodies[n].particles;
+    for (std::size_t i = 0; beyond.raised() && i < p.size; ++i)
       if (p.position[0][i] < 0.0) {
         mirrored_[n].push_back(i);
         p.position[0][i] = -p.position[0][i], p.velocity[0][i] = -p.velocity[0][i];
@@ -128,31 +153,29 @@ double largest_of(const double* values, std::size_t begin, std::size_t end) {
 
 /// Strain and turn since the last commit, in the frame of the committed state. Whether there are any.
 bool ParticleSystem::set_increments(const double* y) {
-  bool changed = false;
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
+  Flag changed;
+  for_each_part([&](const Part& part, std::size_t) {
+    const auto [n, begin, end] = part;
     Particles& p = system_.bodies[n].particles;
     const Start& start = start_[n];
     const std::array<const double*, 4> e = strain_arrays(n, y);
-    const double* w = y + place(n, turn());
-    bool same = std::equal(w, w + p.size, start.turn.begin());
-    for (std::size_t k = 0; k < 4; ++k)
-      same = same && std::equal(e[k], e[k] + p.size, start.strain[k].begin());
-    changed = changed || !same;
+    const double *w = y + place(n, turn()), *turned = start.turn.data();
     std::array<const double*, 4> committed{};
     std::array<double*, 4> to{};
-    for (std::size_t k = 0; k < 4; ++k)
+    bool same = std::equal(w + begin, w + end, turned + begin);
+    for (std::size_t k = 0; k < 4; ++k) {
       committed[k] = start.strain[k].data(), to[k] = p.strain_increment[k].data();
-    const double* turned = start.turn.data();
+      same = same && std::equal(e[k] + begin, e[k] + end, committed[k] + begin);
+    }
+    if (!same) changed.raise();
+    if (largest_of(turned, begin, end) <= small_angle)
+      turn_changes<true>(begin, end, e, committed, turned, to);
+    else
+      turn_changes<false>(begin, end, e, committed, turned, to);
     double* spin = p.spin_increment.data();
-    for_chunks(system_, p.size, [&](std::size_t begin, std::size_t end) {
-      if (largest_of(turned, begin, end) <= small_angle)
-        turn_changes<true>(begin, end, e, committed, turned, to);
-      else
-        turn_changes<false>(begin, end, e, committed, turned, to);
-      for (std::size_t i = begin; i < end; ++i) spin[i] = w[i] - turned[i];
-    });
-  }
-  return changed;
+    for (std::size_t i = begin; i < end; ++i) spin[i] = w[i] - turned[i];
+  });
+  return changed.raised();
 }
 
 /// Stress of the trial. The committed one where nothing has happened yet.
@@ -195,8 +218,20 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   mpm::gather_rates(system_, targets);
   mirror_rates(y, rates);
   if (works_) rates[size_ - 1] = power;
-  not_finite_ = first_not_finite(rates, size_);
+  not_finite_ = is_finite(rates) ? std::nullopt : first_not_finite(rates, size_);
   return !not_finite_;
+}
+
+/// Whether all values are finite.
+bool ParticleSystem::is_finite(const double* values) const {
+  Flag found;
+  auto look = [&](std::size_t begin, std::size_t end) {
+    if (first_not_finite(values + begin, end - begin)) found.raise();
+  };
+  for_ranges([](void* context, std::size_t, std::size_t begin,
+                std::size_t end) { (*static_cast<decltype(look)*>(context))(begin, end); },
+             &look);
+  return !found.raised();
 }
 
 /// Rates of the images become those of the particles beyond the axis: odd components change their sign. The
@@ -224,21 +259,35 @@ bool ParticleSystem::commit(double t, double* y) {
     }
   set_increments(y);
   mpm::update_stress(system_, duration);
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    const std::size_t particles = system_.bodies[n].particles.size;
+  for_each_part([&](const Part& part, std::size_t) {
+    const auto [n, begin, end] = part;
     const std::array<const double*, 4> e = strain_arrays(n, y);
-    for (std::size_t k = 0; k < 4; ++k) std::copy(e[k], e[k] + particles, start_[n].strain[k].begin());
+    for (std::size_t k = 0; k < 4; ++k)
+      std::copy(e[k] + begin, e[k] + end, start_[n].strain[k].data() + begin);
     const double* w = y + place(n, turn());
-    std::copy(w, w + particles, start_[n].turn.begin());
+    std::copy(w + begin, w + end, start_[n].turn.data() + begin);
     const auto& change = system_.bodies[n].particles.strain_increment;
-    for (std::size_t i = 0; i < particles; ++i)
+    for (std::size_t i = begin; i < end; ++i)
       last_strain_[n][i] = norm(SymmetricTensor{change[0][i], change[1][i], change[2][i], change[3][i]});
-  }
+  });
   committed_time_ = t;
   system_.record.external_work = works_ ? y[size_ - 1] - committed_work_ : 0.0;
   if (works_) committed_work_ = y[size_ - 1];
-  system_.record.kinetic = mpm::kinetic_energy(system_);
+  system_.record.kinetic = kinetic_energy();
   return reflect(y);
+}
+
+double ParticleSystem::kinetic_energy() const {
+  std::vector<double> of_parts(parts_.size());
+  for_each_part([&](const Part& part, std::size_t k) {
+    const Particles& p = system_.bodies[part.body].particles;
+    const double *m = p.mass.data(), *v0 = p.velocity[0].data(), *v1 = p.velocity[1].data();
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+    for (std::size_t i = part.begin; i < part.end; ++i) sum += 0.5 * m[i] * (v0[i] * v0[i] + v1[i] * v1[i]);
+    of_parts[k] = sum;
+  });
+  return std::accumulate(of_parts.begin(), of_parts.end(), 0.0);
 }
 
 /// Particles that have crossed the axis change places with their images, in the system and in y.
@@ -262,14 +311,18 @@ bool ParticleSystem::reflect(double* y) {
 }
 
 double ParticleSystem::stable_step(double /*t*/, const double* y) {
+  std::vector<double> squares(parts_.size());  // of the largest speeds
+  for_each_part([&](const Part& part, std::size_t k) {
+    const double *v0 = y + place(part.body, velocity), *v1 = y + place(part.body, velocity + 1);
+    double largest = 0.0;
+    for (std::size_t i = part.begin; i < part.end; ++i)
+      largest = std::max(largest, v0[i] * v0[i] + v1[i] * v1[i]);
+    squares[k] = largest;
+  });
   // The particle system's largest frequency is at most 2 sqrt(2) (c + |v|) / h for any particle positions.
   double step = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    const double *v0 = y + place(n, velocity), *v1 = y + place(n, velocity + 1);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < system_.bodies[n].particles.size; ++i)
-      largest = std::max(largest, v0[i] * v0[i] + v1[i] * v1[i]);
-    const double speed = system_.bodies[n].material->wave_speed() + std::sqrt(largest);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const double speed = system_.bodies[parts_[k].body].material->wave_speed() + std::sqrt(squares[k]);
     step = std::min(step, oscillation_limit_ / std::sqrt(8.0) * system_.cell / speed);
   }
   return step;

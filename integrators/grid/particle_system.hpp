@@ -30,6 +30,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   bool rates(double t, const double* y, double* rates) override;
   void error_weights(double* weights) const override;
   double stable_step(double t, const double* y) override;
+  std::size_t parts() const override { return parts_.size(); }
+  void for_ranges(RangeTask task, void* context) const override;
 
   /// Starts from the system's particles and time.
   void begin(double* y);
@@ -48,9 +50,11 @@ class ParticleSystem final : public sundials::ArkSystem {
 
  private:
   enum class Quantity { displacement, velocity, strain };
-  struct Segment {
-    std::size_t body, first;  ///< place of its first array in y
+  /// Particles [begin, end) of a body: what one thread takes at a time.
+  struct Part {
+    std::size_t body, begin, end;
   };
+  static constexpr std::size_t most_in_part = 256;  ///< few: what is read twice stays in the innermost cache
   static constexpr std::size_t displacement = 0, velocity = 2, strain = 4;
   std::size_t turn() const { return system_.axisymmetric ? 8 : 7; }
   std::size_t arrays() const { return turn() + 1; }
@@ -61,10 +65,18 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::array<const double*, 4> strain_arrays(std::size_t body, const double* y) const;
   static Quantity quantity_of(std::size_t array);
   double tolerance_of(Quantity quantity, std::size_t body, std::size_t particle) const;
+  /// Calls f(part, its index) on all threads.
+  template <class F>
+  void for_each_part(F&& f) const {
+    system_.team->for_each_chunk(parts_.size(), [&](std::size_t k) { f(parts_[k], k); });
+  }
+  void order_parts();
+  bool is_finite(const double* values) const;
   void load(const double* y);
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
   void mirror_rates(const double* y, double* rates) const;
+  double kinetic_energy() const;
   bool reflect(double* y);
 
   System& system_;
@@ -74,6 +86,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   bool works_;  ///< external work is an unknown
   std::size_t size_ = 0;
   std::vector<std::size_t> first_;  ///< by body
+  std::vector<Part> parts_;
   mpm::Trial trial_;
   struct Start {
     std::array<std::vector<double>, 2> position;  ///< at `begin`

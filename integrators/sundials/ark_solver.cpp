@@ -46,9 +46,7 @@ struct ArkSolver::Callbacks {
     });
   }
   static int weights(N_Vector, N_Vector weights, void* solver) {
-    ArkSolver& s = self(solver);
-    s.system_.error_weights(N_VGetArrayPointer(s.weights_.get()));
-    N_VScale(1.0, s.weights_.get(), weights);
+    self(solver).system_.error_weights(N_VGetArrayPointer(weights));
     return 0;
   }
   static int stability(N_Vector y, sunrealtype t, sunrealtype* step, void* solver) {
@@ -81,10 +79,8 @@ struct ArkSolver::Callbacks {
 
 ArkSolver::ArkSolver(const Context& context, const ArkSettings& settings, ArkSystem& system)
     : settings_(settings), system_(system) {
-  y_ = make_state_vector(system.size(), context);
-  weights_.reset(allocated(N_VClone(y_.get())));
+  y_ = make_state_vector(system, context);
   errors_.reset(allocated(N_VClone(y_.get())));
-  N_VConst(1.0, weights_.get());
 }
 
 ArkSolver::ArkSolver(const Context& context, const ButcherTable& table, const ArkSettings& settings,
@@ -116,7 +112,9 @@ void ArkSolver::create(const Context& context, const ButcherTable& table) {
   require(ARKStepWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
   // Lagrange interpolation needs no right-hand side beyond those of the stages (nothing is interpolated
   // here).
-  require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS, "interpolation");
+  require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS &&
+              ARKStepSetInterpolantDegree(m, 0) == ARK_SUCCESS,
+          "interpolation");
   ARKStepSetMaxNumSteps(m, -1);
   ARKStepSetMaxHnilWarns(m, -1);
   if (settings_.fixed_step) return;
@@ -162,7 +160,6 @@ void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind li
 
 void ArkSolver::start(double t, double first_step) {
   time_ = t;
-  system_.error_weights(N_VGetArrayPointer(weights_.get()));
   const double stable = settings_.fixed_step ? std::numeric_limits<double>::infinity()
                                              : settings_.stable_part * system_.stable_step(t, y());
   planned_limit_ = first_step < stable ? Limit::accuracy : Limit::stability;
@@ -259,6 +256,12 @@ auto ArkSolver::step(double stop) -> Step {
 const double* ArkSolver::local_errors() {
   ARKStepGetEstLocalErrors(memory_.get(), errors_.get());
   return N_VGetArrayPointer(errors_.get());
+}
+
+const double* ArkSolver::weights() {
+  if (!weights_) weights_.reset(allocated(N_VClone(y_.get())));
+  ARKStepGetErrWeights(memory_.get(), weights_.get());
+  return N_VGetArrayPointer(weights_.get());
 }
 
 /// ARKODE's counters begin anew with each initialisation.

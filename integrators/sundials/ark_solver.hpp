@@ -73,7 +73,7 @@ class ArkSolver {
   double next_step() const { return next_step_; }
   /// Estimated error of the last attempted step, and the weights it is judged with. Not with a fixed step.
   const double* local_errors();
-  const double* weights() const { return N_VGetArrayPointer(weights_.get()); }
+  const double* weights();
   /// What the linear solver gave last (the correction of the last Newton iteration); empty before.
   const std::vector<double>& last_correction() const { return reduced_->last_solution(); }
 
@@ -98,7 +98,8 @@ class ArkSolver {
   ArkSettings settings_;
   ArkSystem& system_;
   ReducibleSystem* reducible_ = nullptr;
-  StateVector y_, weights_, errors_;
+  StateVector y_, errors_;
+  StateVector weights_;  // once asked for
   std::unique_ptr<ReducedSolver> reduced_;
   Owned<SUNLinearSolver, SUNLinSolFree> krylov_;
   std::unique_ptr<void, FreeMemory> memory_;  // after what it uses: freed before

@@ -21,6 +21,13 @@ class ArkSystem {
   virtual double stable_step(double /*t*/, const double* /*y*/) {
     return std::numeric_limits<double>::infinity();
   }
+
+  /// What is done with vectors of unknowns is done in so many parts, the same for any number of threads.
+  virtual std::size_t parts() const { return 1; }
+  using RangeTask = void (*)(void* context, std::size_t part, std::size_t begin, std::size_t end);
+  /// Calls task(context, part, begin, end) for ranges of unknowns that together are all of them; those of a
+  /// part one after the other, always in the same order, on one thread.
+  virtual void for_ranges(RangeTask task, void* context) const { task(context, 0, 0, size()); }
 };
 
 /// Compressed columns of a square sparse matrix.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "integrators/sundials/ark_system.hpp"
 #include "integrators/sundials/context.hpp"
 #include "integrators/sundials/owned.hpp"
 
@@ -10,9 +11,10 @@ namespace vitrum::sundials {
 
 using StateVector = Owned<N_Vector, N_VDestroy>;
 
-/// SUNDIALS' serial vector, whose linear combinations and norms make one pass over memory with independent
-/// sums (SUNDIALS' own make a pass for each term, and add one number at a time: a third of an explicit run).
-/// Clones inherit this. Throws std::bad_alloc. Zero at first.
-StateVector make_state_vector(std::size_t size, const Context& context);
+/// SUNDIALS' serial vector for the unknowns of a system. Sums, copies, fillings and norms, which are most of
+/// what ARKODE does with vectors, go over the system's parts, on its threads; norms are the same for any
+/// number of threads. Linear combinations make one pass over memory (SUNDIALS' own make one for each term).
+/// Clones inherit this. system must outlive all of them. Throws std::bad_alloc. Zero at first.
+StateVector make_state_vector(const ArkSystem& system, const Context& context);
 
 }  // namespace vitrum::sundials

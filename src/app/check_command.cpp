@@ -16,6 +16,7 @@
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/thread_count.hpp"
 #include "scene/toml_text.hpp"
 #include "scene/write_scene.hpp"
 
@@ -148,7 +149,7 @@ int check_scene(const CheckOptions& options) {
   const SceneSize size = size_of(scene);
   require_memory(scene, size);
   const System system = build_system(scene, 1);
-  const int threads = threads_for(system.particle_count(), available_threads());
+  const int threads = thread_count(scene, system, available_threads());
   output::select_fields(scene.output.fields, output::materials_of(system.bodies));  // throws InputError
   const Work work = work_of(scene, system, threads);
   require_time(scene, system, work, threads);

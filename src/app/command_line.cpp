@@ -94,7 +94,7 @@ int obey(int argc, char** argv) {
   CLI::App& run_command = *program.add_subcommand("run", "run a scene");
   add_scene(run_command, run.scene, run.overrides);
   run_command.add_option("--out", run.directory, "folder for the results (default: out/NAME-OF-SCENE)");
-  run_command.add_option("--threads", run.threads, "threads; 0 chooses by the number of particles")
+  run_command.add_option("--threads", run.threads, "threads; 0 (the default) chooses by the work in a step")
       ->check(CLI::Range(0, 1024));
   CLI::Option* resume = run_command.add_flag("--resume", run.resume, "continue from DIR/checkpoint.h5");
   run_command.add_flag("--force", run.force, "replace what an earlier run left in DIR")->excludes(resume);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "mpm/transfer.hpp"
 #include "scene/choices.hpp"
@@ -12,6 +11,7 @@
 #include "scene/local_method.hpp"
 #include "scene/perturbation.hpp"
 #include "scene/seeding.hpp"
+#include "scene/thread_count.hpp"
 
 namespace vitrum {
 namespace {
@@ -102,16 +102,6 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
 
 }  // namespace
 
-int available_threads() {
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-int threads_for(std::size_t particles, int available) {
-  constexpr std::size_t worth_a_thread = 4000;
-  const auto useful = static_cast<int>(std::min<std::size_t>(particles / worth_a_thread + 1, 1024));
-  return std::max(1, std::min(useful, available));
-}
-
 System build_system(const Scene& scene, int threads) {
   System system;
   system.axisymmetric = scene.geometry == Geometry::axisymmetric;
@@ -127,7 +117,7 @@ System build_system(const Scene& scene, int threads) {
       mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric, std::move(boundaries));
   system.local = make_local_integrator(scene.constitutive);
   system.team = std::make_unique<mpm::ThreadTeam>(
-      threads > 0 ? threads : threads_for(system.particle_count(), available_threads()));
+      threads > 0 ? threads : thread_count(scene, system, available_threads()));
   system.record.kinetic = mpm::kinetic_energy(system);
   return system;
 }

@@ -29,6 +29,11 @@ def bar_settings(cell, steps):
     return [f"space.cell={cell!r}", f"integrator.step={step!r}", f"time.end={step * steps!r}"]
 
 
+def adaptive_settings(method, cell, steps):
+    """The bar with an adaptive method, for as long as so many explicit steps take."""
+    return [s for s in bar_settings(cell, steps) if not s.startswith("integrator.step")] + [f'integrator.method="{method}"']
+
+
 def disks_settings(cells_per_metre, steps):
     """The disks with so many cells a metre, for a number of steps of 0.2 cells of the wave speed."""
     step = 0.2 / cells_per_metre

@@ -172,6 +172,10 @@ def threads(program, repetitions, quick):
     scenes = [("bar", runs.bar, runs.bar_settings(cell, 20 if quick else max(20, int(60e6 * (cell / 0.625e-3) ** 2 / 1280))))
               for cell in bars]
     scenes += [] if quick else [("disks", runs.disks, runs.disks_settings(cells, steps)) for cells, steps in [(141, 2500), (282, 1000), (705, 160)]]
+    scenes += [] if quick else [(f"bar, {method}", runs.bar, runs.adaptive_settings(method, cell, steps)) for method, all_steps in
+                                (("arkode-explicit", (1200, 500, 160)), ("arkode-implicit", (300, 120, 40)))
+                                for cell, steps in zip((0.3125e-3, 0.15625e-3, 0.078125e-3), all_steps)]
+    scenes += [] if quick else [("reference case, 150 us", runs.reference, ['integrator.scheme="musl"', "integrator.step=2.5e-8"])]
     rows = []
     for name, scene, settings in scenes:
         t = runs.measure(program, [runs.Case("1", scene, settings), runs.Case("2", scene, settings, threads=2),
