@@ -7,8 +7,8 @@
 
 namespace vitrum {
 
-/// Calls f(begin, end) for particles of a body, few at a time, on all threads. The chunks are those of the
-/// stress update: threads have the same particles here and there.
+/// Calls f(begin, end) for particles of a body, few at a time, on all threads. The chunks are those of
+/// mpm::try_stress and mpm::update_stress: but for help, threads have the same particles here and there.
 template <class F>
 void for_particles(const System& system, std::size_t body, F&& f) {
   constexpr std::size_t most = 256;

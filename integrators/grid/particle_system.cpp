@@ -35,6 +35,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
     if (!system.axisymmetric) start_[n].no_strain.assign(particles, 0.0);
   }
   if (works_) ++size_;
+  of_parts_.resize(parts_.size());
 }
 
 std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, const double* y) const {
@@ -44,8 +45,8 @@ std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, con
   return {first, first + n, start_[body].no_strain.data(), first + 2 * n};
 }
 
-/// Puts the parts in the order of the tiles that they lie in: threads have the same particles here as on the
-/// grid, as far as the shares of both are the same.
+/// Puts the parts in the order of the tiles that they lie in, so that threads have much the same particles
+/// here as on the grid (there shares follow the threads' speeds, and may change).
 void ParticleSystem::order_parts() {
   const mpm::Grid& grid = system_.grid;
   std::vector<std::vector<std::size_t>> tiles(
@@ -277,17 +278,16 @@ bool ParticleSystem::commit(double t, double* y) {
   return reflect(y);
 }
 
-double ParticleSystem::kinetic_energy() const {
-  std::vector<double> of_parts(parts_.size());
+double ParticleSystem::kinetic_energy() {
   for_each_part([&](const Part& part, std::size_t k) {
     const Particles& p = system_.bodies[part.body].particles;
     const double *m = p.mass.data(), *v0 = p.velocity[0].data(), *v1 = p.velocity[1].data();
     double sum = 0.0;
 #pragma omp simd reduction(+ : sum)
     for (std::size_t i = part.begin; i < part.end; ++i) sum += 0.5 * m[i] * (v0[i] * v0[i] + v1[i] * v1[i]);
-    of_parts[k] = sum;
+    of_parts_[k] = sum;
   });
-  return std::accumulate(of_parts.begin(), of_parts.end(), 0.0);
+  return std::accumulate(of_parts_.begin(), of_parts_.end(), 0.0);
 }
 
 /// Particles that have crossed the axis change places with their images, in the system and in y.
@@ -311,18 +311,17 @@ bool ParticleSystem::reflect(double* y) {
 }
 
 double ParticleSystem::stable_step(double /*t*/, const double* y) {
-  std::vector<double> squares(parts_.size());  // of the largest speeds
   for_each_part([&](const Part& part, std::size_t k) {
     const double *v0 = y + place(part.body, velocity), *v1 = y + place(part.body, velocity + 1);
     double largest = 0.0;
     for (std::size_t i = part.begin; i < part.end; ++i)
       largest = std::max(largest, v0[i] * v0[i] + v1[i] * v1[i]);
-    squares[k] = largest;
+    of_parts_[k] = largest;
   });
   // The particle system's largest frequency is at most 2 sqrt(2) (c + |v|) / h for any particle positions.
   double step = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const double speed = system_.bodies[parts_[k].body].material->wave_speed() + std::sqrt(squares[k]);
+    const double speed = system_.bodies[parts_[k].body].material->wave_speed() + std::sqrt(of_parts_[k]);
     step = std::min(step, oscillation_limit_ / std::sqrt(8.0) * system_.cell / speed);
   }
   return step;

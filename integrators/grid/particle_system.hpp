@@ -76,7 +76,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
   void mirror_rates(const double* y, double* rates) const;
-  double kinetic_energy() const;
+  double kinetic_energy();
   bool reflect(double* y);
 
   System& system_;
@@ -87,6 +87,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::size_t size_ = 0;
   std::vector<std::size_t> first_;  ///< by body
   std::vector<Part> parts_;
+  std::vector<double> of_parts_;  ///< a result of each, for what ARKODE calls must not allocate
   mpm::Trial trial_;
   struct Start {
     std::array<std::vector<double>, 2> position;  ///< at `begin`

@@ -110,8 +110,8 @@ void ArkSolver::create(const Context& context, const ButcherTable& table) {
           "Butcher table");
   require(ARKStepSetUserData(m, this) == ARK_SUCCESS, "user data");
   require(ARKStepWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
-  // Lagrange interpolation needs no right-hand side beyond those of the stages (nothing is interpolated
-  // here).
+  // At a stop ARKODE 6.4 takes its solution from the interpolant; Lagrange's of degree 0 is that of the last
+  // step itself, and needs neither right-hand sides nor earlier states.
   require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS &&
               ARKStepSetInterpolantDegree(m, 0) == ARK_SUCCESS,
           "interpolation");

@@ -1,8 +1,10 @@
 #include "integrators/sundials/state_vector.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -111,15 +113,18 @@ double weighted_squares(const double* x, const double* w, std::size_t begin, std
   return sum;
 }
 
+/// Sums by part. Has its size before ARKODE, which knows no exceptions, asks for a norm.
+thread_local std::vector<double> sums_of_parts;
+
 sunrealtype weighted_norm(N_Vector values, N_Vector weights) {
   const double *x = N_VGetArrayPointer(values), *w = N_VGetArrayPointer(weights);
-  static thread_local std::vector<double> parts;
-  parts.assign(system_of(values).parts(), 0.0);
-  for_ranges(values, [=, of = parts.data()](std::size_t part, std::size_t begin, std::size_t end) {
-    of[part] += weighted_squares(x, w, begin, end);
+  const std::size_t parts = system_of(values).parts();
+  double* sums = sums_of_parts.data();
+  std::fill_n(sums, parts, 0.0);
+  for_ranges(values, [=](std::size_t part, std::size_t begin, std::size_t end) {
+    sums[part] += weighted_squares(x, w, begin, end);
   });
-  double sum = 0.0;
-  for (const double part : parts) sum += part;
+  const double sum = std::accumulate(sums, sums + parts, 0.0);
   return std::sqrt(sum / static_cast<double>(N_VGetLength(values)));
 }
 
@@ -157,6 +162,7 @@ N_Vector of_system(N_Vector v, const ArkSystem* system) {
 StateVector make_state_vector(const ArkSystem& system, const Context& context) {
   N_Vector serial = N_VNew_Serial(static_cast<sunindextype>(system.size()), context.get());
   StateVector vector(allocated(of_system(serial, &system)));
+  if (sums_of_parts.size() < system.parts()) sums_of_parts.resize(system.parts());
   N_VConst(0.0, vector.get());
   return vector;
 }

@@ -170,3 +170,34 @@ TEST_CASE("The factors of a wide body have the entries of minimum degree on a sy
   CHECK(static_cast<double>(solver.factor_entries()) < 2.0 * 100.0 * rows);
   CHECK(static_cast<double>(solver.factor_entries()) > 2.0 * 20.0 * rows);
 }
+
+TEST_CASE("What a grid system computes is the same for any number of threads",
+          "[integrators][mpm][threads]") {
+  for (const char* geometry : {"axisymmetric", "plane-strain"}) {
+    std::vector<std::vector<double>> found;
+    for (const int threads : {1, 2, 3}) {
+      MpmScene scene = scene_of(geometry, "linear");
+      scene.tables += body("large", box({0.0, 8.0}, {14.0, 24.0}), "particles_per_cell = 4");
+      MpmRun run(scene, threads);
+      Random random(13);
+      scatter_at_random(run.system, random, 0.3);
+      GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
+      grid.begin_phase();
+      std::vector<double> y(grid.size()), matrix(grid.pattern().row.size()), all;
+      grid.start(y.data());
+      // Once as committed, once deformed, once deformed further after a commit.
+      for (const double time : {0.1, 0.2, 0.3}) {
+        const std::vector<double> f = rates_at(grid, time, y);
+        REQUIRE(grid.linearise(time, y.data()));
+        grid.form(0.3, matrix.data());
+        grid.commit(time, y.data());
+        all.insert(all.end(), f.begin(), f.end());
+        all.insert(all.end(), matrix.begin(), matrix.end());
+        all.insert(all.end(), {run.system.record.kinetic, run.system.record.elastic, grid.deformation()});
+        for (std::size_t k = 0; k < y.size() / 2; ++k) y[k] += random.uniform(-1e-3, 1e-3);
+      }
+      found.push_back(all);
+    }
+    for (const std::vector<double>& of_threads : found) CHECK(of_threads == found.front());
+  }
+}

@@ -44,82 +44,105 @@ TEST_CASE("A particle beyond the axis has the mirrored rates of its image", "[in
   }
 }
 
-TEST_CASE("The parts of a particle system are all unknowns, each once, and near each other in space",
-          "[integrators][mpm][threads]") {
-  for (const bool works : {false, true}) {
-    MpmScene scene;
-    scene.geometry = "axisymmetric";
-    scene.tables = body("high", box({0.0, 50.0}, {12.0, 70.0}), "particles_per_cell = 1") +
-                   body("low", box({0.0, 0.0}, {12.0, 40.0}), "particles_per_cell = 4");
-    if (works) scene.tables += "[gravity]\nacceleration = [0.0, -9.81]\n";
-    MpmRun run(scene, 2);
-    ParticleSystem system(run.system, {1.0, 1e-3, 1.0}, 1e-3, 1.0);
-    std::vector<double> y(system.size(), 0.0);
-    system.begin(y.data());
-    std::vector<int> met(system.size(), 0);
-    std::vector<std::vector<std::size_t>> begins(system.parts());
-    struct Context {
-      std::vector<int>& met;
-      std::vector<std::vector<std::size_t>>& begins;
-    } context{met, begins};
-    system.for_ranges(
-        [](void* pointer, std::size_t part, std::size_t begin, std::size_t end) {
-          auto& c = *static_cast<Context*>(pointer);
-          for (std::size_t i = begin; i < end; ++i) ++c.met[i];
-          c.begins[part].push_back(begin);
-        },
-        &context);
-    CHECK(met == std::vector<int>(system.size(), 1));
-    // First the parts of the lower body, from below, although it is the second.
-    const Particles &high = run.particles(0), &low = run.particles(1);
-    const std::size_t lower = (low.size + 255) / 256;
-    REQUIRE(begins.size() == lower + (high.size + 255) / 256);
-    double height = -1.0;
-    for (std::size_t k = 0; k < lower; ++k) {
-      REQUIRE(begins[k].front() >= 9 * high.size);
-      const double z = low.position[1][begins[k].front() - 9 * high.size];
-      CHECK(z >= height - 8.0);  // within a block any order will do
-      height = std::max(height, z);
-    }
-  }
+namespace {
+
+/// Two bodies of several parts each, the second one below the first.
+MpmScene two_blocks(const char* geometry) {
+  MpmScene scene;
+  scene.geometry = geometry;
+  scene.tables = body("high", box({0.0, 50.0}, {12.0, 80.0}), "particles_per_cell = 1") +
+                 body("low", box({0.0, 0.0}, {12.0, 40.0}), "particles_per_cell = 4");
+  return scene;
 }
 
-TEST_CASE("Rates, weights, errors and steps of a particle system are the same for any number of threads",
+}  // namespace
+
+TEST_CASE("The parts of a particle system are all unknowns, each once, and near each other in space",
           "[integrators][mpm][threads]") {
-  std::vector<std::vector<double>> found;
-  for (const int threads : {1, 2, 3}) {
-    MpmScene scene;
-    scene.geometry = "axisymmetric";
-    scene.tables = body("block", box({0.0, 0.0}, {20.0, 20.0}), "particles_per_cell = 4");
-    MpmRun run(scene, threads);
-    ParticleSystem system(run.system, {1.0, 1e-3, 1.0}, 1e-3, 1.0);
-    std::vector<double> y(system.size()), f(system.size()), w(system.size());
-    system.begin(y.data());
-    Random random(32);
-    const std::size_t n = run.particles().size;
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t of = run.particles().identity[i];
-      y[2 * n + i] = 0.01 * static_cast<double>(of % 17), y[4 * n + i] = 1e-3 * static_cast<double>(of % 13);
+  for (const bool works : {false, true})
+    for (const char* geometry : {"axisymmetric", "plane-strain"}) {
+      CAPTURE(works, geometry);
+      MpmScene scene = two_blocks(geometry);
+      if (works) scene.tables += "[gravity]\nacceleration = [0.0, -9.81]\n";
+      MpmRun run(scene, 2);
+      ParticleSystem system(run.system, {1.0, 1e-3, 1.0}, 1e-3, 1.0);
+      std::vector<double> y(system.size(), 0.0);
+      system.begin(y.data());
+      struct Found {
+        std::vector<int> met;
+        std::vector<std::vector<std::size_t>> begins;
+      } found{std::vector<int>(system.size(), 0), std::vector<std::vector<std::size_t>>(system.parts())};
+      system.for_ranges(
+          [](void* pointer, std::size_t part, std::size_t begin, std::size_t end) {
+            auto& to = *static_cast<Found*>(pointer);
+            for (std::size_t i = begin; i < end; ++i) ++to.met[i];
+            to.begins[part].push_back(begin);
+          },
+          &found);
+      CHECK(found.met == std::vector<int>(system.size(), 1));
+      // First the parts of the lower body, from below, although it is the second.
+      const Particles &high = run.particles(0), &low = run.particles(1);
+      const std::size_t lower = (low.size + 255) / 256,
+                        before = (run.system.axisymmetric ? 9 : 8) * high.size;
+      REQUIRE(found.begins.size() == lower + (high.size + 255) / 256);
+      double height = -1.0;
+      for (std::size_t k = 0; k < lower; ++k) {
+        REQUIRE(found.begins[k].front() >= before);
+        const double z = low.position[1][found.begins[k].front() - before];
+        CHECK(z >= height - 8.0);  // within a block any order will do
+        height = std::max(height, z);
+      }
     }
-    REQUIRE(system.rates(0.1, y.data(), f.data()));
-    system.error_weights(w.data());
-    ErrorEstimate estimate;
-    system.add_errors(f.data(), estimate);
-    std::vector<double> committed = y;
-    system.commit(0.1, committed.data());
-    f.insert(f.end(), w.begin(), w.end());
-    for (const double value :
-         {system.stable_step(0.1, y.data()), estimate.total, estimate.position, estimate.velocity,
-          estimate.strain, run.system.record.kinetic, run.system.record.elastic})
-      f.push_back(value);
-    CHECK(run.system.record.kinetic == Approx(mpm::kinetic_energy(run.system)).epsilon(1e-13));
-    // What is not finite is found in any part, and named.
-    y[3 * n + n / 2] = std::nan("");
-    std::vector<double> g(system.size());
-    CHECK_FALSE(system.rates(0.1, y.data(), g.data()));
-    REQUIRE(system.not_finite());
-    f.push_back(static_cast<double>(*system.not_finite()));
-    found.push_back(f);
+}
+
+TEST_CASE("What a particle system computes is the same for any number of threads",
+          "[integrators][mpm][threads]") {
+  for (const char* geometry : {"axisymmetric", "plane-strain"}) {
+    std::vector<std::vector<double>> found;
+    for (const int threads : {1, 2, 3}) {
+      MpmRun run(two_blocks(geometry), threads);
+      ParticleSystem system(run.system, {1.0, 1e-3, 1.0}, 1e-3, 1.0);
+      std::vector<double> y(system.size()), f(system.size()), w(system.size());
+      system.begin(y.data());
+      Random random(32);
+      const std::size_t arrays = run.system.axisymmetric ? 9 : 8;
+      std::size_t first = 0, middle = 0;  // the last body's unknowns, a velocity of the middle of them
+      for (const Body& body : run.system.bodies) {
+        const std::size_t n = body.particles.size;
+        for (std::size_t i = 0; i < 4 * n; ++i) y[first + i] += random.uniform(-0.2, 0.2);
+        for (std::size_t i = 4 * n; i < arrays * n; ++i) y[first + i] = random.uniform(-1e-3, 1e-3);
+        middle = first + 3 * n + n / 2;
+        first += arrays * n;
+      }
+      // Of those next to the axis some have crossed it, in several parts.
+      if (run.system.axisymmetric)
+        for (std::size_t i = 0; i < run.particles().size; ++i)
+          if (run.particles().position[0][i] < 1.0 && i % 2 == 0) y[i] = -0.7;
+      std::vector<double> all;
+      const auto keep = [&](const std::vector<double>& values) {
+        all.insert(all.end(), values.begin(), values.end());
+      };
+      // Before and after the commit: errors are judged by the strain of the last step.
+      for (const double time : {0.1, 0.2}) {
+        REQUIRE(system.rates(time, y.data(), f.data()));
+        system.error_weights(w.data());
+        ErrorEstimate estimate;
+        system.add_errors(f.data(), estimate);
+        keep(f), keep(w);
+        keep({system.stable_step(time, y.data()), estimate.total, estimate.position, estimate.velocity,
+              estimate.strain});
+        system.commit(time, y.data());
+        keep({run.system.record.kinetic, run.system.record.elastic});
+        CHECK(run.system.record.kinetic == Approx(mpm::kinetic_energy(run.system)).epsilon(1e-13));
+        for (double& value : y) value *= 1.01;
+      }
+      // What is not finite is found in any part, and named.
+      y[middle] = std::nan("");
+      CHECK_FALSE(system.rates(0.3, y.data(), f.data()));
+      REQUIRE(system.not_finite());
+      keep({static_cast<double>(*system.not_finite())});
+      found.push_back(all);
+    }
+    for (const std::vector<double>& of_threads : found) CHECK(of_threads == found.front());
   }
-  for (const std::vector<double>& of_threads : found) CHECK(of_threads == found.front());
 }

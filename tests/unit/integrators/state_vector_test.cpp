@@ -1,7 +1,7 @@
 #include "integrators/sundials/state_vector.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "catch.hpp"
 #include "mpm/thread_team.hpp"
