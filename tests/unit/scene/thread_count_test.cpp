@@ -35,6 +35,6 @@ TEST_CASE("Threads are chosen by what a step computes, and never more than there
   CHECK(threads_of(flowing, 24.0, 8) == 2);
   MpmScene adaptive = elastic;
   adaptive.method = "arkode-explicit", adaptive.pace = "";
-  CHECK(threads_of(adaptive, 34.0, 8) == 1);  // 4,624
-  CHECK(threads_of(adaptive, 36.0, 8) == 2);  // 5,184
+  CHECK(threads_of(adaptive, 49.0, 8) == 1);  // 9,604
+  CHECK(threads_of(adaptive, 51.0, 8) == 2);  // 10,404
 }
