@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace vitrum::sundials {
@@ -28,6 +29,15 @@ class ArkSystem {
   /// Calls task(context, part, begin, end) for ranges of unknowns that together are all of them; those of a
   /// part one after the other, always in the same order, on one thread.
   virtual void for_ranges(RangeTask task, void* context) const { task(context, 0, 0, size()); }
+  /// The same for f(part, begin, end).
+  template <class F>
+  void for_each_range(F&& f) const {
+    for_ranges(
+        [](void* context, std::size_t part, std::size_t begin, std::size_t end) {
+          (*static_cast<std::remove_reference_t<F>*>(context))(part, begin, end);
+        },
+        &f);
+  }
 };
 
 /// Compressed columns of a square sparse matrix.

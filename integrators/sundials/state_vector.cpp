@@ -25,11 +25,7 @@ const ArkSystem& system_of(N_Vector v) {
 /// Calls f(part, begin, end) for ranges that make up the vector, on several threads.
 template <class F>
 void for_ranges(N_Vector v, F&& f) {
-  system_of(v).for_ranges(
-      [](void* context, std::size_t part, std::size_t begin, std::size_t end) {
-        (*static_cast<std::remove_reference_t<F>*>(context))(part, begin, end);
-      },
-      &f);
+  system_of(v).for_each_range(f);
 }
 
 /// z = a x + b y. All may be the same vector.

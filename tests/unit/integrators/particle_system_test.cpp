@@ -68,27 +68,22 @@ TEST_CASE("The parts of a particle system are all unknowns, each once, and near 
       ParticleSystem system(run.system, {1.0, 1e-3, 1.0}, 1e-3, 1.0);
       std::vector<double> y(system.size(), 0.0);
       system.begin(y.data());
-      struct Found {
-        std::vector<int> met;
-        std::vector<std::vector<std::size_t>> begins;
-      } found{std::vector<int>(system.size(), 0), std::vector<std::vector<std::size_t>>(system.parts())};
-      system.for_ranges(
-          [](void* pointer, std::size_t part, std::size_t begin, std::size_t end) {
-            auto& to = *static_cast<Found*>(pointer);
-            for (std::size_t i = begin; i < end; ++i) ++to.met[i];
-            to.begins[part].push_back(begin);
-          },
-          &found);
-      CHECK(found.met == std::vector<int>(system.size(), 1));
+      std::vector<int> met(system.size(), 0);
+      std::vector<std::vector<std::size_t>> begins(system.parts());
+      system.for_each_range([&](std::size_t part, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++met[i];
+        begins[part].push_back(begin);
+      });
+      CHECK(met == std::vector<int>(system.size(), 1));
       // First the parts of the lower body, from below, although it is the second.
       const Particles &high = run.particles(0), &low = run.particles(1);
       const std::size_t lower = (low.size + 255) / 256,
                         before = (run.system.axisymmetric ? 9 : 8) * high.size;
-      REQUIRE(found.begins.size() == lower + (high.size + 255) / 256);
+      REQUIRE(begins.size() == lower + (high.size + 255) / 256);
       double height = -1.0;
       for (std::size_t k = 0; k < lower; ++k) {
-        REQUIRE(found.begins[k].front() >= before);
-        const double z = low.position[1][found.begins[k].front() - before];
+        REQUIRE(begins[k].front() >= before);
+        const double z = low.position[1][begins[k].front() - before];
         CHECK(z >= height - 8.0);  // within a block any order will do
         height = std::max(height, z);
       }
