@@ -184,20 +184,22 @@ class Composite final : public Material {
               double fraction, PointReport& report) const;
   void choose_damage(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction,
                      PointReport& report) const;
-  void fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
-                         PointReport& report) const;
   bool on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const;
   bool at_strength(const EvolutionMode& mode, const PointState& s) const;
   void set_branch(EvolutionMode& mode, const PointState& s) const;
   void choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
                    bool may_open, bool surface_reached) const;
-  void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
+
+  // composite_jumps.hpp
+  void fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
+                         PointReport& report) const;
   bool falls_through(const EvolutionMode& mode, const PointState& s) const;
+  void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
   bool localises(const EvolutionMode& mode, const PointState& s) const;
   void localise(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  void release_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   void separate_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   bool shear_carries_strength(const EvolutionMode& mode, const PointState& s) const;
-  void release_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
 
   MaterialParameters parameters_;
   std::vector<VariableInfo> variables_;

@@ -2,6 +2,7 @@
 
 #include "materials/composite_batch.hpp"
 #include "materials/composite_intact.hpp"
+#include "materials/composite_jumps.hpp"
 #include "materials/composite_localised.hpp"
 #include "materials/composite_modes.hpp"
 #include "materials/composite_rates.hpp"

@@ -147,21 +147,6 @@ void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, PointState& s, const
   mode.damaging = grows;
 }
 
-/// Shear that only tension allowed, or an initial stress, falls onto the yield surface at constant strain.
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
-                                           PointReport& report) const {
-  if (!surface_acts(mode.tension)) return;
-  const Moduli m = secant(mode.tension, s.crack_density);
-  const double excess = yield_function(s, m);
-  if (!(excess > 1e-9 * m.shear * norm(deviator(s.elastic_strain)))) return;
-  if (C && mode.separated())
-    flow_behind_crack(s, excess, report.dissipation);
-  else
-    report.dissipation.plastic += flow(s, m, excess);
-  report.record(EventKind::yield, fraction);
-}
-
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const {
   if constexpr (has_yield) {
@@ -253,109 +238,6 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     // (A path that has just reached the surface leaves it outwards, whatever rounding makes of the angle.)
     if (mode.flowing && !(r.plastic_strain > 0.0) && !falls && !surface_reached) mode.flowing = false;
   }
-}
-
-/// Whether the strength falls faster than elastic unloading at constant strain.
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::falls_through(const EvolutionMode& mode, const PointState& s) const {
-  const Moduli m = secant(mode.tension, s.crack_density);
-  SymmetricTensor given = flow_direction(s);
-  if constexpr (C) {
-    double gap = 0.0, slip = 0.0;
-    if (mode.separated()) given = give_way(mode, s, m, given, gap, slip);
-  }
-  return contract(yield_gradient(s, m), given) + VonMisesLaw::factor * mode.hardening_modulus <= 0.0;
-}
-
-/// Softening faster than elasticity unloads: the stress falls at constant strain to where the strength meets
-/// it.
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_at_constant_strain(const EvolutionMode& mode, PointState& s,
-                                                 PointReport& report) const {
-  const double stored = stored_energy(s);
-  if (!C || !mode.separated()) {
-    s.elastic_strain += 1e-12 * deviator(s.elastic_strain);
-    report.dissipation.plastic += flow(s, secant(mode.tension, s.crack_density), 0.0);
-    return;
-  }
-  if constexpr (C) {
-    // Behind traction-free faces, which give way as it falls: in small steps to the end of the branch, or
-    // until the stress is inside again.
-    constexpr int steps = 64;
-    const double step = (mode.branch_end - s.plastic_strain) / steps;
-    for (int i = 0; i < steps; ++i) {
-      const PointState before = s;
-      s.elastic_strain -= std::min(step, norm(deviator(s.elastic_strain))) * flow_direction(s);
-      s.plastic_strain = i + 1 == steps ? mode.branch_end : s.plastic_strain + step;
-      relax_crack(s);
-      const bool tension = trace(s.elastic_strain) > 0.0;
-      if (i > 0 && yield_function(s, secant(tension, s.crack_density)) < 0.0) {
-        s = before;
-        break;
-      }
-    }
-    report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
-    Dissipation beyond;
-    flow_behind_crack(s, std::numeric_limits<double>::infinity(), beyond);
-    report.dissipation += beyond;
-  }
-}
-
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::localises(const EvolutionMode& mode, const PointState& s) const {
-  if constexpr (D && C)
-    if (mode.damaging && s.crack_density > 0.0 && damage_localisation(s) <= 0.0) return true;
-  if constexpr (Y == Yielding::von_mises && C)
-    if (mode.flowing && mode.hardening_modulus < 0.0 &&
-        flow_localisation(s, secant(mode.tension, s.crack_density), mode.hardening_modulus) <= 0.0)
-      return true;
-  return false;
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::localise(EvolutionMode& mode, PointState& s, double fraction,
-                                  PointReport& report) const {
-  if constexpr (C) {
-    start_decohesion(mode.tension, mode.damaging, s);
-    mode.damaging = false;
-    mode.plane = EvolutionMode::Plane::held;
-    report.record(EventKind::localisation, fraction);
-  }
-}
-
-/// Snap-back at constant strain: to the next equilibrium (q < 1), or to separation.
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::release_plane(EvolutionMode& mode, PointState& s, double fraction,
-                                       PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
-  if constexpr (C) {
-    snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
-    if (is_separated(s)) {
-      mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
-      report.record(EventKind::separation, fraction);
-    } else {
-      mode.plane = Plane::held;
-    }
-  }
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::separate_plane(EvolutionMode& mode, PointState& s, double fraction,
-                                        PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
-  if constexpr (C) {
-    separate(s, secant(mode.tension, s.crack_density), report.dissipation);
-    mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
-    report.record(EventKind::separation, fraction);
-  }
-}
-
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::shear_carries_strength(const EvolutionMode& mode, const PointState& s) const {
-  const PlaneTraction t =
-      traction({s.normal_r, s.normal_z}, s.elastic_strain, secant(mode.tension, s.crack_density));
-  return mode.viscous || decohesion_.effective_traction(0.0, t.tangential) >
-                             0.5 * decohesion_.strength(s.decohesion, s.cohesive_strength);
 }
 
 template <bool D, Yielding Y, bool C>

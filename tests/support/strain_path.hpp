@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "materials/material.hpp"
+#include "support/random_states.hpp"
 
 namespace vitrum::test {
 
@@ -83,6 +84,20 @@ inline bool is_finite(const PointState& s) {
 }
 inline double distance(const SymmetricTensor& a, const SymmetricTensor& b) {
   return norm(a - b);
+}
+
+/// A random path of straight pieces with reversals, of strains about `size` at rates about `rate` (1/s).
+inline std::vector<Segment> path_with_reversals(Random& random, double size, double rate, int pieces) {
+  std::vector<Segment> path;
+  SymmetricTensor at{};
+  for (int i = 0; i < pieces; ++i) {
+    // Half of the pieces turn back towards the origin.
+    const SymmetricTensor to = random.chance(0.5) ? size * random.uniform(0.3, 1.0) * random.direction()
+                                                  : random.uniform(-0.5, 0.9) * at;
+    path.push_back({to - at, std::max(norm(to - at), 1e-3 * size) / rate});
+    at = to;
+  }
+  return path;
 }
 
 }  // namespace vitrum::test

@@ -1,12 +1,6 @@
 // The ODE forms of the laws, integrated by the substepper and by CVODE, against closed forms and each other.
-#include <chrono>
-#include <cstdio>
-#include <memory>
-
 #include "catch.hpp"
-#include "integrators/local/cvode.hpp"
-#include "integrators/local/substep.hpp"
-#include "support/cracked_state.hpp"
+#include "support/local_solvers.hpp"
 #include "support/material_samples.hpp"
 #include "support/random_states.hpp"
 #include "support/strain_path.hpp"
@@ -15,20 +9,6 @@ using namespace vitrum;
 using namespace vitrum::test;
 
 namespace {
-
-struct Solver {
-  std::string name;
-  std::unique_ptr<LocalIntegrator> integrator;
-};
-
-std::vector<Solver> solvers(double rtol) {
-  const LocalTolerance tolerance{rtol, 1e-3 * rtol};
-  std::vector<Solver> all;
-  all.push_back({"substep", std::make_unique<Substep>(tolerance)});
-  all.push_back({"cvode bdf", std::make_unique<Cvode>(tolerance, CvodeFamily::bdf)});
-  all.push_back({"cvode adams", std::make_unique<Cvode>(tolerance, CvodeFamily::adams)});
-  return all;
-}
 
 const std::vector<double> ladder{1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
@@ -39,7 +19,7 @@ void climb(Measure&& measure) {
   for (std::size_t k = 0; k < solvers(1.0).size(); ++k) {
     double first = 0.0, last = 0.0;
     for (const double rtol : ladder) {
-      const Solver solver = std::move(solvers(rtol)[k]);
+      const LocalSolver solver = std::move(solvers(rtol)[k]);
       CAPTURE(solver.name, rtol);
       const double error = measure(*solver.integrator);
       CHECK(error <= 100.0 * rtol);
@@ -52,20 +32,6 @@ void climb(Measure&& measure) {
 
 double relative(double value, double exact) {
   return std::abs(value - exact) / std::abs(exact);
-}
-
-/// A random path of straight pieces with reversals, of strains about `size` at rates about `rate` (1/s).
-std::vector<Segment> random_path(Random& random, double size, double rate, int pieces) {
-  std::vector<Segment> path;
-  SymmetricTensor at{};
-  for (int i = 0; i < pieces; ++i) {
-    // Half of the pieces turn back towards the origin.
-    const SymmetricTensor to = random.chance(0.5) ? size * random.uniform(0.3, 1.0) * random.direction()
-                                                  : random.uniform(-0.5, 0.9) * at;
-    path.push_back({to - at, std::max(norm(to - at), 1e-3 * size) / rate});
-    at = to;
-  }
-  return path;
 }
 
 }  // namespace
@@ -171,9 +137,9 @@ TEST_CASE("substepper and CVODE agree on 1,008 random paths of every composition
   for (int sample = 0; sample < 84; ++sample)
     for (const NamedMaterial& named : all_compositions()) {
       const auto material = make_material(named.parameters, cell);
-      const std::vector<Segment> path = random_path(random, random.logarithmic(3e-4, 3e-3), 1e4, 5);
+      const std::vector<Segment> path = path_with_reversals(random, random.logarithmic(3e-4, 3e-3), 1e4, 5);
       CAPTURE(named.name, sample);
-      const std::vector<Solver> tight = solvers(1e-8);
+      const std::vector<LocalSolver> tight = solvers(1e-8);
       const Driven a = drive(*material, path, 2, {}, tight[0].integrator.get());
       const Driven b = drive(*material, path, 2, {}, tight[1].integrator.get());
       const double scale = elastic_moduli(named.parameters.elastic).p_wave() * 1e-3;
@@ -201,9 +167,9 @@ TEST_CASE("the closed form converges to the ODE form on random paths", "[local][
   for (int sample = 0; sample < 20; ++sample)
     for (const NamedMaterial& named : all_compositions()) {
       const auto material = make_material(named.parameters, cell);
-      const std::vector<Segment> path = random_path(random, random.logarithmic(3e-4, 2e-3), 1e4, 4);
+      const std::vector<Segment> path = path_with_reversals(random, random.logarithmic(3e-4, 2e-3), 1e4, 4);
       CAPTURE(named.name, sample);
-      const Solver reference = std::move(solvers(1e-9)[1]);
+      const LocalSolver reference = std::move(solvers(1e-9)[1]);
       const Driven exact = drive(*material, path, 1, {}, reference.integrator.get());
       if (!exact.cause.empty()) continue;
       const double scale = elastic_moduli(named.parameters.elastic).p_wave() * 1e-3;
@@ -233,7 +199,7 @@ TEST_CASE("viscous decohesion: stiff relaxation, down to viscosities of 1e-15 s"
     p.decohesion->viscosity = viscosity;
     const auto glass = make_material(p, cell);
     const Driven fine = drive(*glass, {{{end, 0, 0, 0}, end / rate}}, 20000);
-    for (const Solver& solver : solvers(1e-6)) {
+    for (const LocalSolver& solver : solvers(1e-6)) {
       CAPTURE(solver.name, viscosity);
       const Driven d = drive(*glass, {{{end, 0, 0, 0}, end / rate}}, 1, {}, solver.integrator.get());
       REQUIRE(d.cause == "");
@@ -242,84 +208,6 @@ TEST_CASE("viscous decohesion: stiff relaxation, down to viscosities of 1e-15 s"
       CHECK(d.solver.steps < 5000);
     }
   }
-}
-
-TEST_CASE("local solvers at the extremes: finite, bounded, or an error", "[local][extreme]") {
-  Random random(5);
-  for (int sample = 0; sample < 5; ++sample)
-    for (const NamedMaterial& named : all_compositions())
-      for (const double rtol : {1e-2, 1e-12}) {
-        MaterialParameters p = named.parameters;
-        if (p.decohesion) p.decohesion->opening = random.logarithmic(1e-12, 1.0);
-        if (p.decohesion && random.chance(0.5)) p.decohesion->viscosity = random.logarithmic(1e-15, 1e-6);
-        const auto material = make_material(p, cell);
-        const double size = random.logarithmic(1e-12, 1.0);
-        const std::vector<Segment> path = random_path(random, size, random.logarithmic(1e-3, 1e7), 3);
-        for (const Solver& solver : solvers(rtol)) {
-          CAPTURE(named.name, solver.name, rtol, size, sample);
-          const Driven d = drive(*material, path, 1, {}, solver.integrator.get());
-          CHECK((!d.cause.empty() || is_finite(d.state)));
-        }
-      }
-}
-
-TEST_CASE("nothing happens in a zero increment; not-a-number is an error", "[local][extreme]") {
-  for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
-    for (const Solver& solver : solvers(1e-6)) {
-      CAPTURE(named.name, solver.name);
-      PointState s;
-      s.elastic_strain = {1e-5, 0, 0, 1e-6};
-      PointReport report;
-      solver.integrator->integrate(*material, s, {}, 1e-7, report);
-      CHECK(!report.failed());
-      CHECK(s.elastic_strain.rr == 1e-5);
-      report.clear();
-      solver.integrator->integrate(*material, s, {std::nan(""), 0, 0, 0}, 1e-7, report);
-      CHECK(report.failed());
-    }
-  }
-}
-
-TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
-          "[local][verification]") {
-  const auto glass = make_material(fracturing_glass(), cell);
-  for (const Solver& solver : solvers(1e-6)) {
-    CAPTURE(solver.name);
-    const auto solves_of = [&](PointState start, const SymmetricTensor& strain) {
-      return drive(*glass, {{strain, 1e-6}}, 1, start, solver.integrator.get()).solver.solves;
-    };
-    CHECK(solves_of({}, {-1e-3, 0, 0, 0}) == 0);
-    const PointState loaded = drive(*glass, {{{1e-3, 0, 0, 0}, 1e-6}}, 1).state;
-    CHECK(solves_of(loaded, {-5e-4, 0, 0, 0}) == 0);
-    const PointState separated = drive(*glass, {{{1e-2, 0, 0, 0}, 1e-5}}, 1).state;
-    REQUIRE(is_separated(separated));
-    CHECK(solves_of(separated, {1e-3, 0, 0, 0}) == 0);
-    CHECK(solves_of(separated, {-2e-2, 0, 0, 0}) == 0);
-    CHECK(solves_of({}, {1.6e-3, 0, 0, 0}) > 0);
-  }
-}
-
-TEST_CASE("open faces lose the traction that errors left on them before they may close", "[local][extreme]") {
-  // Where it stayed, faces that just met pulled each other open at once: more than 2,000 changes of mode.
-  MaterialParameters parameters = cohesive_glass(1.6e-9);
-  parameters.von_mises = VonMisesParameters{359e6, 484e6, 9.6e9, 9.6e9};
-  const auto material = make_material(parameters, cell);
-  const double stiffness = elastic_moduli(parameters.elastic).p_wave();
-  Random random(20261125);
-  for (const Solver& solver : solvers(1e-6))
-    for (int n = 0; n < 200; ++n) {
-      const double angle = random.uniform(0.0, 3.0), left_over = random.logarithmic(1e5, 1e7),
-                   gap = random.logarithmic(1e-9, 1e-7);
-      CAPTURE(solver.name, n, angle, left_over, gap);
-      PointState s = at_onset(*material, angle, 2.5e8, left_over * normal_dyad(angle));
-      s.plastic_strain = 0.015, s.decohesion = 1.0, s.opening_n = gap;
-      const SymmetricTensor closing = -1.001 * (gap / cell) * normal_dyad(angle);
-      const auto end = drive(*material, {{closing, 5e-8}}, 1, s, solver.integrator.get());
-      CHECK(end.cause.empty());
-      CHECK(end.state.opening_n == Approx(cell * left_over / stiffness - 1e-3 * gap).epsilon(1e-6));
-      CHECK(std::abs(normal_traction(end.state.stress, angle)) < 1.0);  // Pa
-    }
 }
 
 TEST_CASE("Drucker-Prager under proportional shear with growing pressure, for every tolerance",
@@ -353,7 +241,7 @@ TEST_CASE("on random paths with reversals the error stays within 100 rtol over t
   for (const NamedMaterial& named : materials) {
     const auto material = make_material(named.parameters, cell);
     for (int sample = 0; sample < 6; ++sample) {
-      const std::vector<Segment> path = random_path(random, 2e-3, 1e4, 5);
+      const std::vector<Segment> path = path_with_reversals(random, 2e-3, 1e4, 5);
       CAPTURE(named.name, sample);
       double duration = 0.0;
       for (const Segment& segment : path) duration += segment.duration;
@@ -363,7 +251,7 @@ TEST_CASE("on random paths with reversals the error stays within 100 rtol over t
       const double scale = elastic_moduli(named.parameters.elastic).p_wave() * 2e-3;
       for (std::size_t k = 0; k < 2; ++k)
         for (const double rtol : ladder) {
-          const Solver solver = std::move(solvers(rtol)[k]);
+          const LocalSolver solver = std::move(solvers(rtol)[k]);
           CAPTURE(solver.name, rtol);
           const Driven d = drive(*material, path, 1, {}, solver.integrator.get());
           REQUIRE(d.cause == "");
@@ -373,97 +261,5 @@ TEST_CASE("on random paths with reversals the error stays within 100 rtol over t
             CHECK(std::abs(d.events[i].time - exact.events[i].time) <= 100.0 * rtol * duration);
         }
     }
-  }
-}
-
-TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][verification]") {
-  Random random(99);
-  MaterialParameters p = fracturing_glass();
-  p.decohesion->viscosity = 1e-9;
-  const auto glass = make_material(p, cell);
-  const PointState onset = drive(*glass, {{{1.7e-3, 0, 0, 4e-4}, 6e-7}}, 1).state;
-  REQUIRE(is_localised(onset));
-  for (int sample = 0; sample < 200; ++sample) {
-    PointState s = onset;
-    s.decohesion = random.uniform(0.05, 0.9);
-    s.elastic_strain += 3e-4 * random.direction();
-    EvolutionMode mode;
-    mode.plane = EvolutionMode::Plane::decohering;
-    mode.tension = mode.viscous = true;
-    mode.pulled = random.chance(0.8);
-    const StrainPath path{2e-4 * random.direction(), 1e-7};
-    const OpeningJacobian J = glass->opening_jacobian(mode, s, path);
-    const DecohesionPlane plane{s.normal_r, s.normal_z};
-    const auto rates_after = [&](std::size_t j, double change) {
-      PointState moved = s;
-      if (j == 0) moved.decohesion += change;
-      if (j == 1) moved.elastic_strain -= plane.jump_strain(change, 0.0, s.effective_length);
-      if (j == 2) moved.elastic_strain -= plane.jump_strain(0.0, change, s.effective_length);
-      const EvolutionRates r = glass->rates(mode, moved, path);
-      return std::array<double, 4>{r.decohesion, r.opening_n, r.opening_t, r.fracture};
-    };
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double h = j == 0 ? 1e-6 : 1e-11;
-      const auto up = rates_after(j, h), down = rates_after(j, -h);
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double difference = (up[i] - down[i]) / (2.0 * h);
-        const double size = std::abs(J[i][0]) * (j == 0 ? 1.0 : 2e5) + std::abs(J[i][j]);
-        CAPTURE(sample, i, j);
-        CHECK(std::abs(J[i][j] - difference) <= 1e-4 * size + 1e-9 * std::abs(up[i]) / h);
-      }
-    }
-  }
-}
-
-// Run by hand: tests_verification "[work-precision]" prints the table of docs/findings.md.
-TEST_CASE("work and precision of the three methods", "[.][work-precision]") {
-  struct Work {
-    const char* name;
-    MaterialParameters material;
-    std::vector<Segment> before, increment;
-  };
-  MaterialParameters viscous = fracturing_glass();
-  viscous.decohesion->viscosity = 1e-9;
-  const double r = 3.0e3;
-  const std::vector<Work> works{
-      {"elastic", fracturing_glass(), {}, {{{-1e-4, 0, 0, 2e-5}, 1e-7}}},
-      {"damaging",
-       fracturing_glass(),
-       {{{1.1e-3, 1e-5, 0, 0}, 1.1e-3 / r}},
-       {{{2e-4, 1e-5, 0, 3e-5}, 2e-4 / r}}},
-      {"plastic", flowing_steel(), {{{2e-3, -1e-3, -1e-3, 0}, 1e-6}}, {{{1e-4, 0, -1e-4, 3e-4}, 1e-7}}},
-      {"decohering", fracturing_glass(), {{{2e-3, 0, 0, 0}, 2e-3 / r}}, {{{3e-4, 0, 0, 2e-4}, 3e-4 / r}}},
-      {"viscous", viscous, {{{2e-3, 0, 0, 0}, 2e-3 / r}}, {{{3e-4, 0, 0, 2e-4}, 3e-4 / r}}},
-  };
-  std::printf("| increment | method | tolerance or steps | error | us |\n|---|---|---|---|---|\n");
-  for (const Work& work : works) {
-    const auto material = make_material(work.material, cell);
-    Cvode tight({1e-13, 1e-15}, CvodeFamily::bdf);
-    const PointState start =
-        work.before.empty() ? PointState{} : drive(*material, work.before, 1, {}, &tight).state;
-    const Driven reference = drive(*material, work.increment, 1, start, &tight);
-    const double scale = std::max(norm(reference.state.stress - start.stress), 1.0);
-    const auto measure = [&](const std::string& method, const std::string& setting,
-                             PointIntegrator* integrator, int steps) {
-      std::vector<double> times;
-      Driven d;
-      for (int repeat = 0; repeat < 5; ++repeat) {
-        constexpr int runs = 200;
-        const auto begun = std::chrono::steady_clock::now();
-        for (int i = 0; i < runs; ++i) d = drive(*material, work.increment, steps, start, integrator);
-        times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() /
-                        runs);
-      }
-      std::sort(times.begin(), times.end());
-      std::printf("| %s | %s | %s | %.1e | %.2f |\n", work.name, method.c_str(), setting.c_str(),
-                  distance(d.state.stress, reference.state.stress) / scale, 1e6 * times[2]);
-    };
-    for (const int steps : {1, 10, 100}) measure("closed-form", std::to_string(steps), nullptr, steps);
-    for (const double rtol : {1e-3, 1e-4, 1e-6, 1e-8, 1e-10})
-      for (const Solver& solver : solvers(rtol)) {
-        char text[16];
-        std::snprintf(text, sizeof text, "%.0e", rtol);
-        measure(solver.name, text, solver.integrator.get(), 1);
-      }
   }
 }

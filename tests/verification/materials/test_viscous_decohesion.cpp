@@ -71,3 +71,42 @@ TEST_CASE("a jump leaves a viscous plane no time to soften", "[material][decohes
   CHECK(d.state.decohesion == 0.0);
   CHECK(normal_traction(d.state.stress, angle) == Approx(strength + M * 2.0e-3));
 }
+
+TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][verification]") {
+  Random random(99);
+  MaterialParameters p = fracturing_glass();
+  p.decohesion->viscosity = 1e-9;
+  const auto glass = make_material(p, cell);
+  const PointState onset = drive(*glass, {{{1.7e-3, 0, 0, 4e-4}, 6e-7}}, 1).state;
+  REQUIRE(is_localised(onset));
+  for (int sample = 0; sample < 200; ++sample) {
+    PointState s = onset;
+    s.decohesion = random.uniform(0.05, 0.9);
+    s.elastic_strain += 3e-4 * random.direction();
+    EvolutionMode mode;
+    mode.plane = EvolutionMode::Plane::decohering;
+    mode.tension = mode.viscous = true;
+    mode.pulled = random.chance(0.8);
+    const StrainPath path{2e-4 * random.direction(), 1e-7};
+    const OpeningJacobian J = glass->opening_jacobian(mode, s, path);
+    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const auto rates_after = [&](std::size_t j, double change) {
+      PointState moved = s;
+      if (j == 0) moved.decohesion += change;
+      if (j == 1) moved.elastic_strain -= plane.jump_strain(change, 0.0, s.effective_length);
+      if (j == 2) moved.elastic_strain -= plane.jump_strain(0.0, change, s.effective_length);
+      const EvolutionRates r = glass->rates(mode, moved, path);
+      return std::array<double, 4>{r.decohesion, r.opening_n, r.opening_t, r.fracture};
+    };
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double h = j == 0 ? 1e-6 : 1e-11;
+      const auto up = rates_after(j, h), down = rates_after(j, -h);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double difference = (up[i] - down[i]) / (2.0 * h);
+        const double size = std::abs(J[i][0]) * (j == 0 ? 1.0 : 2e5) + std::abs(J[i][j]);
+        CAPTURE(sample, i, j);
+        CHECK(std::abs(J[i][j] - difference) <= 1e-4 * size + 1e-9 * std::abs(up[i]) / h);
+      }
+    }
+  }
+}

@@ -1,0 +1,88 @@
+// The local solvers where there is nothing to integrate, or more than can be.
+#include "catch.hpp"
+#include "support/cracked_state.hpp"
+#include "support/local_solvers.hpp"
+#include "support/material_samples.hpp"
+#include "support/random_states.hpp"
+#include "support/strain_path.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+TEST_CASE("local solvers at the extremes: finite, bounded, or an error", "[local][extreme]") {
+  Random random(5);
+  for (int sample = 0; sample < 5; ++sample)
+    for (const NamedMaterial& named : all_compositions())
+      for (const double rtol : {1e-2, 1e-12}) {
+        MaterialParameters p = named.parameters;
+        if (p.decohesion) p.decohesion->opening = random.logarithmic(1e-12, 1.0);
+        if (p.decohesion && random.chance(0.5)) p.decohesion->viscosity = random.logarithmic(1e-15, 1e-6);
+        const auto material = make_material(p, cell);
+        const double size = random.logarithmic(1e-12, 1.0);
+        const std::vector<Segment> path = path_with_reversals(random, size, random.logarithmic(1e-3, 1e7), 3);
+        for (const LocalSolver& solver : solvers(rtol)) {
+          CAPTURE(named.name, solver.name, rtol, size, sample);
+          const Driven d = drive(*material, path, 1, {}, solver.integrator.get());
+          CHECK((!d.cause.empty() || is_finite(d.state)));
+        }
+      }
+}
+
+TEST_CASE("nothing happens in a zero increment; not-a-number is an error", "[local][extreme]") {
+  for (const NamedMaterial& named : all_compositions()) {
+    const auto material = make_material(named.parameters, cell);
+    for (const LocalSolver& solver : solvers(1e-6)) {
+      CAPTURE(named.name, solver.name);
+      PointState s;
+      s.elastic_strain = {1e-5, 0, 0, 1e-6};
+      PointReport report;
+      solver.integrator->integrate(*material, s, {}, 1e-7, report);
+      CHECK(!report.failed());
+      CHECK(s.elastic_strain.rr == 1e-5);
+      report.clear();
+      solver.integrator->integrate(*material, s, {std::nan(""), 0, 0, 0}, 1e-7, report);
+      CHECK(report.failed());
+    }
+  }
+}
+
+TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
+          "[local][verification]") {
+  const auto glass = make_material(fracturing_glass(), cell);
+  for (const LocalSolver& solver : solvers(1e-6)) {
+    CAPTURE(solver.name);
+    const auto solves_of = [&](PointState start, const SymmetricTensor& strain) {
+      return drive(*glass, {{strain, 1e-6}}, 1, start, solver.integrator.get()).solver.solves;
+    };
+    CHECK(solves_of({}, {-1e-3, 0, 0, 0}) == 0);
+    const PointState loaded = drive(*glass, {{{1e-3, 0, 0, 0}, 1e-6}}, 1).state;
+    CHECK(solves_of(loaded, {-5e-4, 0, 0, 0}) == 0);
+    const PointState separated = drive(*glass, {{{1e-2, 0, 0, 0}, 1e-5}}, 1).state;
+    REQUIRE(is_separated(separated));
+    CHECK(solves_of(separated, {1e-3, 0, 0, 0}) == 0);
+    CHECK(solves_of(separated, {-2e-2, 0, 0, 0}) == 0);
+    CHECK(solves_of({}, {1.6e-3, 0, 0, 0}) > 0);
+  }
+}
+
+TEST_CASE("open faces lose the traction that errors left on them before they may close", "[local][extreme]") {
+  // Where it stayed, faces that just met pulled each other open at once: more than 2,000 changes of mode.
+  MaterialParameters parameters = cohesive_glass(1.6e-9);
+  parameters.von_mises = VonMisesParameters{359e6, 484e6, 9.6e9, 9.6e9};
+  const auto material = make_material(parameters, cell);
+  const double stiffness = elastic_moduli(parameters.elastic).p_wave();
+  Random random(20261125);
+  for (const LocalSolver& solver : solvers(1e-6))
+    for (int n = 0; n < 200; ++n) {
+      const double angle = random.uniform(0.0, 3.0), left_over = random.logarithmic(1e5, 1e7),
+                   gap = random.logarithmic(1e-9, 1e-7);
+      CAPTURE(solver.name, n, angle, left_over, gap);
+      PointState s = at_onset(*material, angle, 2.5e8, left_over * normal_dyad(angle));
+      s.plastic_strain = 0.015, s.decohesion = 1.0, s.opening_n = gap;
+      const SymmetricTensor closing = -1.001 * (gap / cell) * normal_dyad(angle);
+      const auto end = drive(*material, {{closing, 5e-8}}, 1, s, solver.integrator.get());
+      CHECK(end.cause.empty());
+      CHECK(end.state.opening_n == Approx(cell * left_over / stiffness - 1e-3 * gap).epsilon(1e-6));
+      CHECK(std::abs(normal_traction(end.state.stress, angle)) < 1.0);  // Pa
+    }
+}
