@@ -132,22 +132,12 @@ double Composite<D, Y, C>::localisation_criterion([[maybe_unused]] const Leg& le
                                                   [[maybe_unused]] const PointState& s) const {
   double value = std::numeric_limits<double>::infinity();
   if constexpr (C && D) {
-    if (leg.tension && s.crack_density > leg.start.crack_density) {
-      const SymmetricTensor& e = s.elastic_strain;
-      double largest = 0.5 * (e.rr + e.zz) + std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
-      if (decohesion_.parameters().search_all_planes) largest = std::max(largest, e.tt);
-      value = damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest);
-    }
+    if (leg.tension && s.crack_density > leg.start.crack_density) value = damage_localisation(s);
   }
   if constexpr (C && Y == Yielding::von_mises) {
-    if (s.plastic_strain > leg.start.plastic_strain && von_mises_.modulus(s.plastic_strain) < 0.0) {
-      const Moduli moduli = secant(leg.tension, s.crack_density);
-      const CriticalPlane plane =
-          von_mises_critical_plane(2.0 * moduli.shear * deviator(s.elastic_strain), moduli,
-                                   von_mises_.tangent_drop(moduli.shear, s.plastic_strain),
-                                   decohesion_.parameters().search_all_planes);
-      value = std::min(value, 1.0 - plane.severity);
-    }
+    const double modulus = von_mises_.modulus(s.plastic_strain);
+    if (s.plastic_strain > leg.start.plastic_strain && modulus < 0.0)
+      value = std::min(value, flow_localisation(s, secant(leg.tension, s.crack_density), modulus));
   }
   return value;
 }
@@ -276,11 +266,13 @@ double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& 
              damage_.moduli(x).energy(leg.start.elastic_strain);
     x0 = x;
   }
-  if constexpr (Y == Yielding::von_mises)  // plastic flow has taken part of the deviator: straight from start
-                                           // to end
-    return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain, end.elastic_strain);
-  return sudden + damage_.dissipation(x0, x1, leg.start.elastic_strain + from * leg.strain,
-                                      leg.start.elastic_strain + to * leg.strain);
+  const auto elastic_strain_at = [&](double fraction) {
+    // (Plastic flow takes part of the deviator: between both states the path is taken for straight.)
+    if constexpr (Y == Yielding::von_mises)
+      if (fraction > 0.0) return follow(leg, fraction).state.elastic_strain;
+    return leg.start.elastic_strain + fraction * leg.strain;
+  };
+  return sudden + damage_.dissipation(x0, x1, elastic_strain_at(from), elastic_strain_at(to));
 }
 
 }  // namespace vitrum

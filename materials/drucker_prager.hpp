@@ -30,7 +30,6 @@ class DruckerPragerLaw {
     const double q = 2.0 * moduli.shear * std::sqrt(1.5 * contract(d, d));
     return q - (parameters_.yield - parameters_.beta * moduli.bulk * trace(elastic_strain));
   }
-  double strength(double pressure) const { return parameters_.yield + parameters_.beta * pressure; }
 
   /// Returns a trial elastic strain to the surface and adds to `plastic_strain` (the integral of |d eps_p|).
   /// `violated_before`: f at the start of the increment, Pa; what exceeds zero there flows at once, the rest

@@ -125,11 +125,12 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
 }
 
 /// A step. Where none can be taken the phase ends at the last one, so that particles stand where their stress
-/// belongs.
+/// belongs. (ARKODE leaves its last attempt in y when the step is the shortest already.)
 ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
+  reached_.assign(solver_->y(), solver_->y() + solver_->size());
   const auto leave = [&] {
     count_work(solver_->counters(), before_, state_.counters);
-    state_.remap_loss += grid_->end_phase(solver_->y()), ++state_.phases;
+    state_.remap_loss += grid_->end_phase(reached_.data()), ++state_.phases;
   };
   ArkSolver::Step step;
   try {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "materials/root.hpp"
@@ -28,18 +29,23 @@ std::optional<Root> follow_straight(const Material& material, const EvolutionMod
                                     const StrainPath& path, PointState& state, double& done) {
   const EvolutionRates r = material.rates(mode, state, path);
   const double left = 1.0 - done;
-  EventFunctions functions;
+  EventFunctions before, functions;
   material.events(mode, along(state, r, left), path, functions);
   std::optional<Root> first;
   double taken = left;
   EventFunctions inside;
   for (std::size_t k = 0; k < functions.count; ++k) {
     if (!(functions.value[k] > 0.0)) continue;
+    // The error of what came before may have left a function above zero: it is no event until it rises. (On a
+    // path that stands still nothing does, however often the mode would change and change back.)
+    if (before.count == 0) material.events(mode, state, path, before);
+    const double reached = std::max(0.0, before.value[k]);
+    if (!(functions.value[k] > reached)) continue;
     // (The event functions of straight modes are convex along the path: what is below zero at its end never
     // crossed.)
     const double at = first_reached(0.0, left, [&](double f) {
       material.events(mode, along(state, r, f), path, inside);
-      return inside.value[k] > 0.0;
+      return inside.value[k] > reached;
     });
     if (!first || at < taken) first = functions.root[k], taken = at;
   }

@@ -82,17 +82,31 @@ class Stepper {
   PointReport& report_;
 };
 
-/// Event functions that count: those that have been below zero since the mode began.
+/// Event functions that count: those that have been below zero since the mode began, or that began above it,
+/// by the error of what came before, and fell (they may be back before a substep is over). These count when
+/// they rise beyond where they began.
 class Watch {
  public:
   explicit Watch(const ModeProblem& problem) : problem_(problem) {}
 
+  /// The mode begins at (t, y). step: short, with the rates there.
+  void begin(double t, const Vector& y, const Vector& rates, double step) {
+    EventFunctions g, ahead;
+    problem_.events(t, y.data(), g);
+    const Vector next = y + step * rates;
+    problem_.events(t + step, next.data(), ahead);
+    for (std::size_t k = 0; k < g.count; ++k) {
+      armed_[k] = g.value[k] < 0.0 || ahead.value[k] < g.value[k];
+      beyond_[k] = std::max(0.0, g.value[k]);
+    }
+  }
   void arm(double t, const Vector& y) {
     EventFunctions g;
     problem_.events(t, y.data(), g);
-    for (std::size_t k = 0; k < g.count; ++k) armed_[k] = armed_[k] || g.value[k] < 0.0;
+    for (std::size_t k = 0; k < g.count; ++k)
+      if (g.value[k] < 0.0) armed_[k] = true, beyond_[k] = 0.0;
   }
-  /// The largest armed event function at (t, y) and, when it is above zero, its root.
+  /// The largest event function that counts at (t, y), over where it began, and its root when above zero.
   struct Passed {
     double value = -1.0;
     std::optional<Root> root;
@@ -102,14 +116,15 @@ class Watch {
     problem_.events(t, y.data(), g);
     Passed p;
     for (std::size_t k = 0; k < g.count; ++k)
-      if (armed_[k] && g.value[k] > p.value)
-        p = {g.value[k], g.value[k] > 0.0 ? std::optional(g.root[k]) : std::nullopt};
+      if (const double value = g.value[k] - beyond_[k]; armed_[k] && value > p.value)
+        p = {value, value > 0.0 ? std::optional(g.root[k]) : std::nullopt};
     return p;
   }
 
  private:
   const ModeProblem& problem_;
   std::array<bool, EventFunctions::capacity> armed_{};
+  std::array<double, EventFunctions::capacity> beyond_{};
 };
 
 }  // namespace
@@ -121,7 +136,6 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
   Stepper stepper(problem, report);
   Vector y = result;
   Watch watch(problem);
-  watch.arm(0.0, y);
   bool finite = true;
   double t = 0.0;
   Vector f = stepper.rates(t, y, finite);
@@ -139,6 +153,7 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
     report.cause = "the rates at the start of a mode are not finite";
     return false;
   }
+  watch.begin(t, y, f, 1e-9 * longest);
   for (int i = 0; i < most_substeps; ++i) {
     const bool last = t + h >= end;
     if (last) h = end - t;

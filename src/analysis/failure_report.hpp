@@ -19,7 +19,7 @@ struct FirstEvent {
 
 /// A connected piece of unseparated material.
 struct Fragment {
-  std::string body;  ///< of most of its mass
+  std::string body;
   std::size_t particles;
   double mass;         ///< kg (whole body in axisymmetric scenes, per metre in plane strain)
   double centre[2];    ///< m

@@ -150,7 +150,7 @@ int check_scene(const CheckOptions& options) {
   require_memory(scene, size);
   const System system = build_system(scene, 1);
   const int threads = thread_count(scene, system, available_threads());
-  output::select_fields(scene.output.fields, output::materials_of(system.bodies));  // throws InputError
+  output::select_fields(scene, output::materials_of(system.bodies));  // throws InputError
   const Work work = work_of(scene, system, threads);
   require_time(scene, system, work, threads);
   const std::vector<std::string> warned = warnings(scene, system, threads);

@@ -124,7 +124,7 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
   constexpr double of_dataset = 2000.0, of_series = 30.0 * 8.0;  // structure of result.h5 and result.xdmf
   double of_output = of_dataset + of_series, of_checkpoint = 0.0;
   if (with_fields)
-    for (const std::string& field : output::select_fields(scene.output.fields, materials))
+    for (const std::string& field : output::select_fields(scene, materials))
       of_output += of_dataset + 8.0 * particles * static_cast<double>(output::components_of(field));
   for (const Body& body : system.bodies)
     of_checkpoint += static_cast<double>(body.particles.size) *

@@ -21,7 +21,7 @@ int run_scene(const RunOptions& options) {
   require_time(scene, system, work_of(scene, system, threads), threads);
   for (const std::string& w : warnings(scene, system, threads)) tell("warning: {}\n", w);
   // Before the folder is made: wrong input leaves no trace.
-  output::select_fields(scene.output.fields, output::materials_of(system.bodies));
+  output::select_fields(scene, output::materials_of(system.bodies));
   require_disk(scene, disk_space_of(scene, system, !options.no_fields), folder_of(options));
   Simulation simulation(scene, std::move(system), options, claim_folder(options));
   return simulation.run();

@@ -33,7 +33,7 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       schedule_(scene),
       progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet) {
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
-  fields_ = output::select_fields(scene.output.fields, materials);
+  fields_ = output::select_fields(scene, materials);
   if (options_.no_fields) fields_.clear();
   provenance_ = output::make_provenance(options.command, output::sha256(resolved_toml(scene)));
   catch_signals();

@@ -138,7 +138,7 @@ std::size_t components_of(std::string_view field) {
 }
 
 std::vector<std::string> select_fields(const std::optional<std::vector<std::string>>& requested,
-                                       std::span<const Material* const> materials) {
+                                       std::span<const Material* const> materials, std::string_view where) {
   std::vector<std::string> known = known_fields(materials);
   if (!requested) {
     std::erase(known, "elastic_strain");
@@ -147,14 +147,17 @@ std::vector<std::string> select_fields(const std::optional<std::vector<std::stri
   std::vector<std::string> faults, selected = {"position"};
   for (const std::string& name : *requested) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      faults.push_back(fmt::format(
-          "key 'output.fields': found \"{}\", expected fields that this scene's materials have: {}", name,
-          fmt::join(known, ", ")));
+      faults.push_back(fmt::format("{}: found \"{}\", expected fields that this scene's materials have: {}",
+                                   where, name, fmt::join(known, ", ")));
     else if (std::find(selected.begin(), selected.end(), name) == selected.end())
       selected.push_back(name);
   }
   if (!faults.empty()) throw InputError(faults);
   return selected;
+}
+
+std::vector<std::string> select_fields(const Scene& scene, std::span<const Material* const> materials) {
+  return select_fields(scene.output.fields, materials, scene.at("output.fields"));
 }
 
 std::vector<const Material*> materials_of(std::span<const Body> bodies) {

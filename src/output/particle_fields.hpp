@@ -18,9 +18,12 @@ std::vector<std::string> known_fields(std::span<const Material* const> materials
 
 /// The fields that a run writes. `requested`: the scene's output.fields; none gives all known fields but
 /// elastic_strain, which the stress and the other variables determine. position is always among them: nothing
-/// can be drawn without it. Throws InputError listing the known names when a requested field is none of them.
+/// can be drawn without it. Throws InputError listing the known names when a requested field is none of them;
+/// `where` begins its message.
 std::vector<std::string> select_fields(const std::optional<std::vector<std::string>>& requested,
-                                       std::span<const Material* const> materials);
+                                       std::span<const Material* const> materials, std::string_view where);
+/// The same for the scene, whose bodies have these materials.
+std::vector<std::string> select_fields(const Scene& scene, std::span<const Material* const> materials);
 
 /// Numbers a particle that a field has.
 std::size_t components_of(std::string_view field);

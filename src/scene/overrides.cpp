@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/key_depth.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/toml_reader.hpp"
 #include "scene/toml_text.hpp"
 
@@ -117,6 +118,28 @@ struct Place {
   std::size_t depth;
 };
 
+/// The list that the key of a body or boundary stands for when it is absent: `body.0.velocity`, say.
+std::optional<toml::array> absent_list(const std::vector<std::string>& keys, std::size_t depth) {
+  if (depth != 2) return std::nullopt;
+  const KeyTable table = keys[0] == "body"       ? keys::body()
+                         : keys[0] == "boundary" ? keys::boundary(Geometry::axisymmetric)
+                                                 : KeyTable{};
+  const auto found = std::ranges::find(table, keys[depth], &KeyInfo::name);
+  if (found == table.end() || !found->fallback.starts_with('[')) return std::nullopt;
+  return *toml::parse(fmt::format("list = {}", found->fallback), std::string_view{})["list"].as_array();
+}
+
+/// Puts `value` at the item of `list` that the keys from `depth` on name.
+void put_item(toml::array& list, const std::vector<std::string>& keys, std::size_t depth, toml::node& value) {
+  const std::size_t index = item_index(list, keys, depth);
+  if (depth + 1 == keys.size()) return store(list, index, value);
+  toml::array* row = list.get_as<toml::array>(index);
+  if (row == nullptr)
+    throw Refusal{joined(keys, depth + 1),
+                  fmt::format("found a number, expected a list that could hold '{}'", keys[depth + 1])};
+  put_item(*row, keys, depth + 1, value);
+}
+
 /// Looks without touching, so that a refused argument leaves no half-made tables behind.
 Place find_place(toml::table& document, const std::vector<std::string>& keys) {
   toml::node* node = &document;
@@ -129,7 +152,7 @@ Place find_place(toml::table& document, const std::vector<std::string>& keys) {
     } else if (toml::table* table = node->as_table()) {
       toml::node* child = table->get(keys[depth]);
       if (at_last) return {node, depth};
-      if (child == nullptr && is_index(keys[depth + 1])) {
+      if (child == nullptr && is_index(keys[depth + 1]) && !absent_list(keys, depth)) {
         const std::string path = joined(keys, depth + 1);
         throw Refusal{
             path,
@@ -152,6 +175,13 @@ std::string assign(toml::table& document, const std::vector<std::string>& keys, 
     store(*list, item_index(*list, keys, place.depth), value);
   } else {
     toml::table* table = place.parent->as_table();
+    if (place.depth + 1 < keys.size() && is_index(keys[place.depth + 1])) {
+      if (std::optional<toml::array> absent = absent_list(keys, place.depth)) {
+        put_item(*absent, keys, place.depth + 1, value);
+        table->insert(keys[place.depth], std::move(*absent));
+        return joined(keys, place.depth + 1);
+      }
+    }
     for (std::size_t depth = place.depth; depth + 1 < keys.size(); ++depth)
       table = table->insert_or_assign(keys[depth], toml::table{}).first->second.as_table();
     store(*table, keys.back(), value);

@@ -27,7 +27,7 @@ expected. A number is finite unless its row says that inf is admitted.
 
 Any key can be given on the command line, by its dotted path and as a TOML value, list items by index from 0:
 `--set time.end=1e-4`, `--set body.0.velocity.1=-800`, `--set 'integrator.scheme="musl"'`. Missing keys and tables are created,
-missing list items are not. The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant`
+missing list items are not, except those of a list that has a default. The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant`
 and the other way round.
 
 A scene is refused (status 2), by `check` and by `run` before either takes memory, when the estimate of its peak memory is more than

@@ -27,7 +27,7 @@ void result_output(benchmark::State& state) {
   const Scene scene = bar(state.range(0));
   RunningScene run(scene);
   const auto& bodies = run.system.bodies;
-  const auto fields = output::select_fields(std::nullopt, output::materials_of(bodies));
+  const auto fields = output::select_fields(std::nullopt, output::materials_of(bodies), "output.fields");
   const Directory directory;
   output::ResultFile file = output::ResultFile::create(
       directory.path, {scene.title, scene.verbatim, "", output::make_provenance("benchmark", ""),

@@ -67,6 +67,17 @@ class LocalMethods(CommandLineTest):
         self.vitrum("point", dump, "--set", "constitutive.rtol=1e-6", "--set", "constitutive.atol=1e-9")
         self.vitrum("point", dump, "--set", 'constitutive.method="closed-form"')
 
+    def test_implicit_stages_with_local_solvers(self):
+        """Stages try increments of nothing, and of no time, where planes decohere and steel flows."""
+        for method in ("substep", "cvode"):
+            with self.subTest(method):
+                out = self.run_scene(method, "--no-fields", "--set", 'integrator.method="arkode-implicit"', "--set",
+                                     f'constitutive.method="{method}"')
+                summary = json.loads((out / "summary.json").read_text())
+                self.assertEqual(summary["status"], "complete")
+                self.assertGreater(summary["constitutive"]["increments_solved"], 0)
+                self.assertGreater(summary["failure"]["localised"], 0)
+
     def test_state_of_a_point_file_is_checked(self):
         bad = self.folder / "bad.toml"
         bad.write_text(glass_point.read_text() + "\n[state]\ncrack_density = 2.0\n")

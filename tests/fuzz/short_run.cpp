@@ -74,7 +74,7 @@ void exercise(const Scene& scene) {
          "the resolved scene reads as the same scene");
   if (!is_small(scene)) return;
   System system = build_system(scene, 1);
-  output::select_fields(scene.output.fields, output::materials_of(system.bodies));
+  output::select_fields(scene, output::materials_of(system.bodies));
   (void)app::warnings(scene, system, 1);
   app::require_time(scene, system, app::work_of(scene, system, 1), 1);
   (void)app::disk_space_of(scene, system, true);

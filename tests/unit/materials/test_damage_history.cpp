@@ -117,7 +117,11 @@ TEST_CASE("damage is frozen after localisation", "[material][damage][decohesion]
 }
 
 TEST_CASE("work = stored energy + dissipation of growing damage", "[material][damage]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  MaterialParameters of_metal = damaging_glass(), of_sand = damaging_glass();
+  of_metal.von_mises = VonMisesParameters{1e12, 1e12, 0.0, 0.0};
+  of_sand.drucker_prager = DruckerPragerParameters{1e12, 1.8, false};
+  const auto glass = make_material(GENERATE_REF(damaging_glass(), of_metal, of_sand),
+                                   cell);  // yield surfaces that nothing reaches
   Random random(4);
   for (int i = 0; i < 20; ++i) {
     std::vector<Segment> path;
@@ -133,6 +137,26 @@ TEST_CASE("work = stored energy + dissipation of growing damage", "[material][da
     REQUIRE(fine.least_dissipation >= 0.0);
     const Driven coarse = drive(*glass, path, 1);
     REQUIRE(coarse.dissipation.total() == Approx(fine.dissipation.total()).epsilon(2e-4).margin(1e-9));
+  }
+}
+
+TEST_CASE("damage that a first load has paid for is not booked again by a second, flowing or not",
+          "[material][damage][energy]") {
+  // A step of the second load begins far inside the damage of the first: nothing is set free up to there.
+  const double first = 1.4e-3, second = 1.8e-3, rate = 1.0e3;
+  const std::vector<Segment> path{stretch(first, rate), stretch(-first, rate), stretch(second, rate)};
+  for (const double yield : {1e12, 40.0e6}) {
+    MaterialParameters p = damaging_glass();
+    p.von_mises = VonMisesParameters{yield, yield, 0.0, 0.0};
+    const auto material = make_material(p, cell);
+    const Driven fine = drive(*material, path, 4000);
+    const bool flows = fine.dissipation.plastic > 0.0;
+    CHECK(flows == (yield < 1e12));
+    for (const int steps : {1, 2, 5}) {
+      CAPTURE(yield, steps);
+      CHECK(drive(*material, path, steps).dissipation.damage ==
+            Approx(fine.dissipation.damage).epsilon(flows ? 0.02 : 1e-5));
+    }
   }
 }
 

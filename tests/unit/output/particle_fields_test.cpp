@@ -50,18 +50,18 @@ TEST_CASE("The fields of a run are those of its materials or those asked for", "
   const std::vector<const Material*> materials = materials_of(bodies);
   const Names standard = {"position",      "velocity",       "stress",    "damage",
                           "crack_density", "plastic_strain", "dissipated"};
-  CHECK(select_fields({}, materials) == standard);
-  CHECK(select_fields(Names{"elastic_strain", "velocity", "velocity"}, materials) ==
+  CHECK(select_fields({}, materials, "here") == standard);
+  CHECK(select_fields(Names{"elastic_strain", "velocity", "velocity"}, materials, "here") ==
         Names{"position", "elastic_strain", "velocity"});
-  CHECK(select_fields(Names{}, materials) == Names{"position"});
-  CHECK_THROWS_AS(select_fields(Names{"opening_n"}, materials), InputError);
+  CHECK(select_fields(Names{}, materials, "here") == Names{"position"});
+  CHECK_THROWS_AS(select_fields(Names{"opening_n"}, materials, "here"), InputError);
   try {
-    select_fields(Names{"velocity", "presure", "opening_n"}, materials);
+    select_fields(Names{"velocity", "presure", "opening_n"}, materials, "here");
     FAIL("unknown fields were accepted");
   } catch (const InputError& error) {
     REQUIRE(error.messages().size() == 2);
-    CHECK_THAT(error.messages()[0], contains_text("output.fields") && contains_text("\"presure\"") &&
-                                        contains_text("plastic_strain"));
+    CHECK_THAT(error.messages()[0],
+               contains_text("here: ") && contains_text("\"presure\"") && contains_text("plastic_strain"));
   }
 }
 

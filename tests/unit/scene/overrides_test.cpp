@@ -46,6 +46,15 @@ TEST_CASE("Overrides (--set): creates missing keys and tables", "[scene][overrid
   CHECK(scene.materials[2].name == "ice");
 }
 
+TEST_CASE("Overrides (--set): items of a list that the file leaves at its default", "[scene][overrides]") {
+  const Scene scene = scene_with({"body.0.velocity.1=-800", "body.0.velocity.0=3",
+                                  "body.0.velocity_gradient.0.1=5", "body.0.stress.3=1e6"});
+  CHECK(scene.bodies[0].velocity == Vector2{3.0, -800.0});
+  CHECK(scene.bodies[0].velocity_gradient[0] == Vector2{0.0, 5.0});
+  CHECK(scene.bodies[0].velocity_gradient[1] == Vector2{0.0, 0.0});
+  CHECK(scene.bodies[0].stress == std::array<double, 4>{0.0, 0.0, 0.0, 1e6});
+}
+
 TEST_CASE("Overrides (--set): of step and courant replaces the other", "[scene][overrides]") {
   const Scene courant = scene_with({"integrator.courant=0.1"});
   CHECK_FALSE(courant.integrator.step);
@@ -82,8 +91,11 @@ TEST_CASE("Overrides (--set): arguments that cannot be applied", "[scene][overri
   require_fault({"body.2.velocity.1=-800"}, "--set 1: key 'body.2': ", "found index 2 of a list of length 2");
   require_fault({"body.0.box.min.5=0"}, "--set 1: key 'body.0.box.min.5': ", "length 2");
   require_fault({"body.first.name=\"x\""}, "--set 1: key 'body.first': ", "an index from 0 to 1");
-  require_fault({"body.0.velocity.1=-800"},
-                "--set 1: key 'body.0.velocity': ", "--set 'body.0.velocity=[..]'");
+  require_fault({"body.0.polygon.1=[0, 1]"},
+                "--set 1: key 'body.0.polygon': ", "--set 'body.0.polygon=[..]'");
+  require_fault({"body.0.velocity.2=-800"}, "--set 1: key 'body.0.velocity.2': ", "length 2");
+  require_fault({"body.0.velocity.1.0=1"}, "--set 1: key 'body.0.velocity.1': ", "found a number");
+  require_fault({"body.0.velocity.1=true"}, "--set 1: key 'body.0.velocity", "true");
   require_fault({"time.end.x=1"}, "--set 1: key 'time.end': ", "found 1e-04, expected a table or list");
   require_fault({"time.end"}, "--set 1: found \"time.end\"", "KEY=VALUE");
   require_fault({"=1"}, "--set 1: ", "KEY=VALUE");

@@ -46,6 +46,67 @@ TEST_CASE("nothing happens in a zero increment; not-a-number is an error", "[loc
   }
 }
 
+TEST_CASE("where a path stands still nothing happens, whatever went before", "[local][extreme]") {
+  // Traction at the strength of a plane, stress on the yield surface, crack density on eq. 7: rounding
+  // decides on which side, and modes used to change to and fro.
+  Random random(77);
+  long localised = 0;
+  for (int sample = 0; sample < 40; ++sample)
+    for (const NamedMaterial& named : all_compositions()) {
+      const auto material = make_material(named.parameters, cell);
+      const auto path = path_with_reversals(random, random.logarithmic(1e-3, 6e-3), 1e4, 3);
+      for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-5))) {
+        CAPTURE(named.name, solver.name, sample);
+        const Driven before = drive(*material, path, 1, {}, solver.integrator.get());
+        if (!before.cause.empty()) continue;
+        localised += is_localised(before.state) && !is_separated(before.state) ? 1 : 0;
+        for (const double duration : {0.0, 1e-6}) {
+          const Driven held = drive(*material, {{{}, duration}}, 1, before.state, solver.integrator.get());
+          REQUIRE(held.cause == "");
+          // (Flow and decohesion that soften together may leave the stress outside the yield surface, onto
+          // which it falls now.)
+          if (named.parameters.von_mises && named.parameters.decohesion) continue;
+          REQUIRE(held.events.empty());
+          REQUIRE(held.dissipation.total() <= 1e-9 * before.dissipation.total());
+          REQUIRE(distance(held.state.stress, before.state.stress) <=
+                  1e-9 * norm(before.state.stress) + 1e-3);  // (open faces lose what errors left: Pa)
+        }
+      }
+    }
+  CHECK(localised > 50);
+}
+
+TEST_CASE("the paper's materials on random paths that reverse and stand still", "[local][extreme]") {
+  std::vector<MaterialParameters> materials;
+  for (const double opening : {1.6e-9, 5.0e-6, 1.0e-4}) {
+    materials.push_back(fracturing_steel());
+    materials.back().decohesion->opening = opening;
+  }
+  for (const double opening : {5.0e-6, 1.0e-4})
+    for (const bool associated : {false, true}) {
+      materials.push_back(fracturing_glass(associated));
+      materials.back().decohesion->opening = opening;
+      materials.back().drucker_prager = glass_drucker_prager();
+      materials.back().drucker_prager->associated = associated;
+    }
+  Random random(177);
+  int failed = 0, all = 0;
+  for (int sample = 0; sample < 300; ++sample)
+    for (const MaterialParameters& p : materials) {
+      const auto material = make_material(p, cell);
+      auto path =
+          path_with_reversals(random, random.logarithmic(3e-4, 3e-2), random.logarithmic(1e2, 1e6), 4);
+      path.push_back({{}, path.back().duration});
+      for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-3))) {
+        const Driven d = drive(*material, path, 1 + sample % 3, {}, solver.integrator.get());
+        failed += d.cause.empty() ? 0 : 1, ++all;
+      }
+    }
+  CAPTURE(failed);
+  CHECK(all == 6300);
+  CHECK(failed <= 4);  // "changes of mode", where flow and decohesion soften together
+}
+
 TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
           "[local][verification]") {
   const auto glass = make_material(fracturing_glass(), cell);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "catch.hpp"
@@ -12,10 +13,13 @@ namespace {
 constexpr const char* shapes[] = {"linear", "gimp", "bspline2"};
 constexpr const char* schemes[] = {"usf", "usl", "musl"};
 
-/// Velocity gradient of the patch, 1/s: stretch, shear and spin at once.
-constexpr double gradient[2][2] = {{1.0e-3, 2.0e-3}, {-0.5e-3, -1.5e-3}};
+using Gradient = std::array<std::array<double, 2>, 2>;
 
-MpmScene uniform_strain_patch(const char* shape, const char* scheme, int particles_per_cell, double step) {
+/// Velocity gradient of the patch, 1/s: stretch, shear and spin at once.
+constexpr Gradient all_at_once{{{1.0e-3, 2.0e-3}, {-0.5e-3, -1.5e-3}}};
+
+MpmScene uniform_strain_patch(const char* shape, const char* scheme, int particles_per_cell, double step,
+                              const Gradient& gradient = all_at_once) {
   MpmScene scene;
   scene.shape = shape, scene.scheme = scheme, scene.pace = fixed_step(step);
   const std::string rows =
@@ -29,9 +33,9 @@ MpmScene uniform_strain_patch(const char* shape, const char* scheme, int particl
 /// Elastic strain after `time` of uniform strain rate: the corotational integral, to second order in the
 /// small spin.
 SymmetricTensor expected_strain(double time) {
-  const double spin = 0.5 * time * (gradient[1][0] - gradient[0][1]);
-  const SymmetricTensor straight{time * gradient[0][0], time * gradient[1][1], 0.0,
-                                 0.5 * time * (gradient[0][1] + gradient[1][0])};
+  const Gradient& L = all_at_once;
+  const double spin = 0.5 * time * (L[1][0] - L[0][1]);
+  const SymmetricTensor straight{time * L[0][0], time * L[1][1], 0.0, 0.5 * time * (L[0][1] + L[1][0])};
   return rotate(straight, rotation_by(0.5 * spin));
 }
 
@@ -77,6 +81,27 @@ TEST_CASE("Patch test: a uniform strain rate gives every interior particle the s
         CHECK(looked_at == 64 * ppc);
         CHECK(worst < 1e-15);  // velocities are of order 1, their rounding 1e-16
       }
+}
+
+TEST_CASE("Patch test: a step that turns by w strains by w^2/6 more than the corotational integral",
+          "[verification][mpm]") {
+  constexpr int points = 1000;
+  const SymmetricTensor stretching{0.01, -0.01, 0.0, 0.0};
+  for (const double w : {0.6, 0.3, 0.15}) {
+    const Gradient turning{{{0.01, -w}, {w, -0.01}}};
+    MpmScene scene = uniform_strain_patch("linear", "usf", 4, 1.0, turning);
+    scene.tables.replace(scene.tables.find("[3.0, -2.0]"), 11, "[0.0, 0.0]");
+    MpmRun run(scene);
+    run.advance(1.0);
+    SymmetricTensor exact{};  // integral of R^T D R, turned by the whole angle
+    for (int k = 0; k < points; ++k)
+      exact += (1.0 / points) * rotate(stretching, rotation_by(w - w * (k + 0.5) / points));
+    int looked_at = 0;
+    const double beyond = largest_deviation(run.particles(), (1.0 + w * w / 6.0) * exact, 4.0, looked_at);
+    CAPTURE(w);
+    CHECK(looked_at > 150);
+    CHECK(beyond < 0.03 * w * w * w * w * norm(exact));
+  }
 }
 
 TEST_CASE("Patch test: over many steps the interior stays uniform until the free edges are heard",
