@@ -19,14 +19,6 @@ double evaluations_of_step(const IntegratorDefinition& integrator) {
   return integrator.method == GridMethod::explicit_steps ? 1.0 : butcher_table(integrator).stages;
 }
 
-/// The key that sets the length of steps.
-std::string step_key(const IntegratorDefinition& i) {
-  if (i.fixed_step && i.method != GridMethod::explicit_steps) return "integrator.fixed_step";
-  if (i.method == GridMethod::arkode_implicit) return "integrator.remap";
-  if (i.method == GridMethod::explicit_steps) return i.step ? "integrator.step" : "integrator.courant";
-  return "space.cell";
-}
-
 /// `value` with the largest unit that it reaches.
 template <std::size_t n>
 std::string with_unit(double value, const std::array<std::pair<double, const char*>, n>& units) {
@@ -47,6 +39,13 @@ double size_on_disk(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string step_key(const IntegratorDefinition& i) {
+  if (i.fixed_step && i.method != GridMethod::explicit_steps) return "integrator.fixed_step";
+  if (i.method == GridMethod::arkode_implicit) return "integrator.remap";
+  if (i.method == GridMethod::explicit_steps) return i.step ? "integrator.step" : "integrator.courant";
+  return "space.cell";
+}
 
 CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
   switch (integrator.method) {

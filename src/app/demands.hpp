@@ -22,6 +22,9 @@ inline constexpr double long_run = 86400.0;
 /// to change. To be asked before the scene's system is built.
 void require_memory(const Scene& scene, const SceneSize& size);
 
+/// The key that sets the length of steps.
+std::string step_key(const IntegratorDefinition& integrator);
+
 /// What the time loop takes.
 struct Work {
   double steps = 0.0;       ///< planned; adaptive methods: no fewer

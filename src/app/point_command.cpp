@@ -18,22 +18,24 @@ namespace {
 class Csv {
  public:
   explicit Csv(const std::string& path)
-      : path_(path),
+      : name_(path.empty() ? "standard output" : path),
         file_(path.empty() ? stdout : std::fopen(path.c_str(), "w"),
               path.empty() ? [](std::FILE*) { return 0; } : &std::fclose) {
-    if (!file_) throw FileError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    if (!file_) fail();
   }
   void line(const std::string& text) {
-    if (std::fputs(text.c_str(), file_.get()) < 0 || std::fputc('\n', file_.get()) < 0)
-      throw FileError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+    if (std::fputs(text.c_str(), file_.get()) < 0 || std::fputc('\n', file_.get()) < 0) fail();
   }
   void finish() {
-    if (std::fflush(file_.get()) != 0)
-      throw FileError(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+    if (std::fflush(file_.get()) != 0) fail();
   }
 
  private:
-  std::string path_;
+  [[noreturn]] void fail() const {
+    throw FileError(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+  }
+
+  std::string name_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
 };
 

@@ -52,6 +52,8 @@ class Check(CommandLineTest):
         answer = self.vitrum("check", impact, *overrides(integrator__step=2e-7))
         self.assertRegex(answer.stderr, r"warning: integrator\.step: 2e-07 s is 1\.\d+ times the critical step")
         self.assertNotIn("integrator.step", self.vitrum("check", impact).stderr)
+        courant = self.vitrum("check", impact, *overrides(integrator__courant=5.0))
+        self.assertRegex(courant.stderr, r"warning: integrator\.courant: .* is 5 times the critical step")
 
     def test_nothing_is_written(self):
         self.vitrum("check", impact)

@@ -4,7 +4,7 @@ import signal
 import subprocess
 import unittest
 
-from support import CommandLineTest, impact, overrides, program, read_summary
+from support import CommandLineTest, glass_point, impact, overrides, program, read_summary
 
 settings = overrides(output__every=2e-7)  # a hundred lines of progress
 
@@ -81,7 +81,9 @@ class Streams(CommandLineTest):
         """Longer than any buffer: the failure is met while printing."""
         with open("/dev/full", "w") as full:
             answer = self.vitrum("info", self.folder / "whole", "--json", status=4, stdout=full)
+            point = self.vitrum("point", glass_point, status=4, stdout=full)
         self.assertEqual(answer.stderr, "error: standard output: cannot be written: No space left on device\n")
+        self.assertIn("error: standard output: cannot be written: No space left on device\n", point.stderr)
 
     def test_scene_on_standard_input(self):
         for pipe in (True, False):
