@@ -107,11 +107,11 @@ std::vector<std::string> warnings(const Scene& scene, const System& system, int 
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   const double step = planned_step(scene.integrator, critical).value_or(0.0);
   if (method != GridMethod::arkode_implicit && step > critical.step)
-    list.push_back(fmt::format(
-        "{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
-        "m/s, fastest particle {:.4g} m/s); energy will grow",
-        step_key(scene.integrator), step, step / critical.step,
-        critical.step, critical.body, critical.wave_speed, critical.travel_speed));
+    list.push_back(
+        fmt::format("{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
+                    "m/s, fastest particle {:.4g} m/s); energy will grow",
+                    step_key(scene.integrator), step, step / critical.step, critical.step, critical.body,
+                    critical.wave_speed, critical.travel_speed));
   if (method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
     list.push_back(
         "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
