@@ -187,7 +187,7 @@ class Composite final : public Material {
   bool on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const;
   bool at_strength(const EvolutionMode& mode, const PointState& s) const;
   void set_branch(EvolutionMode& mode, const PointState& s) const;
-  void choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
+  bool choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
                    bool may_open, bool surface_reached) const;
 
   // composite_jumps.hpp
@@ -195,10 +195,13 @@ class Composite final : public Material {
                          PointReport& report) const;
   bool falls_through(const EvolutionMode& mode, const PointState& s) const;
   void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
+  bool snaps_back_alone(EvolutionMode mode, const PointState& s, const StrainPath& path) const;
+  void fall_with_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   bool localises(const EvolutionMode& mode, const PointState& s) const;
   void localise(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   void release_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   void separate_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  void enter_separated(EvolutionMode& mode, const PointState& s, double fraction, PointReport& report) const;
   bool shear_carries_strength(const EvolutionMode& mode, const PointState& s) const;
 
   MaterialParameters parameters_;

@@ -67,6 +67,62 @@ void Composite<D, Y, C>::fall_at_constant_strain(const EvolutionMode& mode, Poin
   }
 }
 
+/// Whether the plane loses its equilibrium even where the material behind it does not flow.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::snaps_back_alone(EvolutionMode mode, const PointState& s,
+                                          const StrainPath& path) const {
+  mode.flowing = false;
+  return !(rates(mode, s, path).fraction > 0.0);
+}
+
+/// Flow raises the traction on the plane, and its opening the stress measure, faster than both soften: the
+/// point falls at constant strain. It flows in small steps to the end of the branch, or until the stress is
+/// inside again, while the plane opens as its strength demands, if need be until it separates.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::fall_with_plane(EvolutionMode& mode, PointState& s, double fraction,
+                                         PointReport& report) const {
+  if constexpr (Y == Yielding::von_mises && C) {
+    constexpr int steps = 64;
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const double stored = stored_energy(s), start = s.decohesion;
+    const double span = std::min(mode.branch_end - s.plastic_strain, norm(deviator(s.elastic_strain)));
+    bool separates = false;
+    const auto follow = [&] {
+      const PlaneTraction t = traction(plane, s.elastic_strain, m);
+      if (decohesion_.effective_traction(t.normal, t.tangential) <=
+          decohesion_.strength(s.decohesion, s.cohesive_strength))
+        return;
+      const DecohesionLaw::Advance next =
+          decohesion_.advance(s.decohesion, s.cohesive_strength, t, s.effective_length, 0.0);
+      separates = next.separates;
+      if (separates) return;
+      s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
+      s.decohesion = next.decohesion;
+      s.opening_n += next.normal_opening, s.opening_t += next.tangential_opening;
+    };
+    const double end = s.plastic_strain + span;
+    for (int i = 0; i < steps && !separates && (i == 0 || yield_function(s, m) > 0.0); ++i) {
+      s.elastic_strain -= std::min(span / steps, norm(deviator(s.elastic_strain))) * flow_direction(s);
+      s.plastic_strain = i + 1 == steps ? end : s.plastic_strain + span / steps;
+      follow();
+    }
+    // What is still outside at the end of the branch falls on along the next one.
+    constexpr int most_turns = 50;
+    const double tolerance = 1e-9 * m.shear * norm(deviator(s.elastic_strain));
+    for (int turn = 0; turn < most_turns && !separates && yield_function(s, m) > tolerance; ++turn) {
+      flow(s, m, 0.0);
+      follow();
+    }
+    const double surface =
+        decohesion_.surface_energy(start, s.decohesion, s.cohesive_strength) / s.effective_length;
+    report.dissipation.fracture += surface;
+    report.dissipation.plastic += std::max(0.0, stored - stored_energy(s) - surface);
+    mode.plane = EvolutionMode::Plane::held;
+    if (separates) separate_plane(mode, s, fraction, report);
+  }
+}
+
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::localises(const EvolutionMode& mode, const PointState& s) const {
   if constexpr (D && C)
@@ -93,27 +149,28 @@ void Composite<D, Y, C>::localise(EvolutionMode& mode, PointState& s, double fra
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::release_plane(EvolutionMode& mode, PointState& s, double fraction,
                                        PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
   if constexpr (C) {
     snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
-    if (is_separated(s)) {
-      mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
-      report.record(EventKind::separation, fraction);
-    } else {
-      mode.plane = Plane::held;
-    }
+    mode.plane = EvolutionMode::Plane::held;
+    if (is_separated(s)) enter_separated(mode, s, fraction, report);
   }
 }
 
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::separate_plane(EvolutionMode& mode, PointState& s, double fraction,
                                         PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
   if constexpr (C) {
     separate(s, secant(mode.tension, s.crack_density), report.dissipation);
-    mode.plane = s.opening_n > 0.0 ? Plane::open : Plane::closed;
-    report.record(EventKind::separation, fraction);
+    enter_separated(mode, s, fraction, report);
   }
+}
+
+/// The plane has just separated.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::enter_separated(EvolutionMode& mode, const PointState& s, double fraction,
+                                         PointReport& report) const {
+  mode.plane = s.opening_n > 0.0 ? EvolutionMode::Plane::open : EvolutionMode::Plane::closed;
+  report.record(EventKind::separation, fraction);
 }
 
 template <bool D, Yielding Y, bool C>

@@ -46,7 +46,10 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
       localise(mode, s, fraction, report);
       break;
     case Root::snap_back:
-      release_plane(mode, s, fraction, report);
+      if (mode.flowing && !snaps_back_alone(mode, s, path))
+        fall_with_plane(mode, s, fraction, report);
+      else
+        release_plane(mode, s, fraction, report);
       break;
     case Root::pull:
       // The traction equals the strength: where what is left by shear does not, it is the strength that has
@@ -101,8 +104,12 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
     const bool may_flow = root != Root::unload && on_surface(mode, s, root == Root::yield);
     const bool may_open = root != Root::stall && at_strength(mode, s);
     set_branch(mode, s);
-    choose_flow(mode, s, path, may_flow, may_open, root == Root::yield);
+    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open, root == Root::yield);
     if constexpr (C) {
+      if (runs_away) {
+        fall_with_plane(mode, s, fraction, report);
+        continue;
+      }
       if (mode.decohering() && !mode.viscous && !(rates(mode, s, path).fraction > 0.0)) {
         release_plane(mode, s, fraction, report);
         continue;
@@ -186,9 +193,11 @@ void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const PointState& s) co
   }
 }
 
-/// Of flow and decohesion, those that go forward: both together, then each alone.
+/// Of flow and decohesion, those that go forward: both together, then each alone. True where neither can go
+/// on alone, and both together only backwards along the path: each drives the other, faster than the path
+/// does.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path,
+bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path,
                                      bool may_flow, bool may_open, bool surface_reached) const {
   using Plane = EvolutionMode::Plane;
   if constexpr (C) {
@@ -208,7 +217,7 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
       // the material flows.
       mode.flowing = false;
       const EvolutionRates alone = rates(mode, s, path);
-      if (alone.decohesion > 0.0 && !(alone.fraction > 0.0)) return;
+      if (alone.decohesion > 0.0 && !(alone.fraction > 0.0)) return false;
       mode.flowing = may_flow;
     }
   }
@@ -218,12 +227,11 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
       const EvolutionRates together = rates(mode, s, path);
       const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
       // Otherwise one goes on and relieves the other.
-      if (together.fraction > 0.0 && opens && flows) return;
+      if (together.fraction > 0.0 && opens && flows) return false;
       if (opens && !(together.fraction > 0.0)) {
         // What flows behind the plane drives it beyond what it can bear, too.
-        mode.flowing = false;
-        if (!(rates(mode, s, path).fraction > 0.0)) return;
-        mode.flowing = true;
+        if (snaps_back_alone(mode, s, path)) return mode.flowing = false;
+        if (Y == Yielding::von_mises && flows && !falls) return true;
       }
       EvolutionMode flow_alone = mode;
       flow_alone.plane = Plane::held;
@@ -238,6 +246,7 @@ void Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     // (A path that has just reached the surface leaves it outwards, whatever rounding makes of the angle.)
     if (mode.flowing && !(r.plastic_strain > 0.0) && !falls && !surface_reached) mode.flowing = false;
   }
+  return false;
 }
 
 template <bool D, Yielding Y, bool C>

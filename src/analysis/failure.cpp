@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "analysis/fragments.hpp"
+#include "materials/damage.hpp"
+#include "materials/root.hpp"
 
 namespace vitrum {
 namespace {
@@ -13,10 +15,23 @@ const std::vector<double>& column(const Body& body, Variable v) {
   return body.particles.variables[static_cast<std::size_t>(v)];
 }
 
-double damage_of(const Body& body, std::size_t i) {
+double damage_of(const Material& material, double crack_density) {
   PointState s;
-  s.crack_density = column(body, Variable::crack_density)[i];
-  return body.material->damage(s);
+  s.crack_density = crack_density;
+  return material.damage(s);
+}
+
+/// Crack density beyond which the damage, which grows with it, exceeds `damage`.
+double crack_density_at(const Material& material, double damage) {
+  return first_reached(0.0, crack_density_limit,
+                       [&](double density) { return damage_of(material, density) > damage; });
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+#pragma omp simd reduction(max : most)
+  for (std::size_t i = 0; i < values.size(); ++i) most = std::max(most, values[i]);
+  return most;
 }
 
 std::array<double, 2> mean_velocity(const Body& body) {
@@ -48,7 +63,7 @@ FailureMeasures measure(const Body& body) {
   }
   if (!column(body, Variable::crack_density).empty())
     for (std::size_t i = 0; i < p.size; ++i)
-      if (damage_of(body, i) > damage_front_threshold)
+      if (damage_of(*body.material, column(body, Variable::crack_density)[i]) > damage_front_threshold)
         raise(m.damage_front_radius, std::abs(p.position[0][i]));
   return m;
 }
@@ -81,6 +96,8 @@ FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.s
         e.min[k] = std::min(e.min[k], x - body.particle_half_size),
         e.max[k] = std::max(e.max[k], x + body.particle_half_size);
     extents_.push_back(e);
+    damaging_density_.push_back(
+        body.material->parameters().damage ? crack_density_at(*body.material, damage_threshold) : infinite);
     // The projectile is the fastest body; the target is the first body that can separate and that is not the
     // projectile.
     const std::array<double, 2> v = mean_velocity(body);
@@ -112,10 +129,13 @@ void FailureAnalysis::observe(const System& system, double step) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
     const std::vector<double>& density = column(body, Variable::crack_density);
-    for (std::size_t i = 0; i < density.size() && !memory_[n].damage; ++i)
-      if (density[i] > 0.0 && damage_of(body, i) > damage_threshold)
-        memory_[n].damage =
-            FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
+    // All particles, every step, until one is damaged: by numbers, which is vectorised, not by the law.
+    if (memory_[n].damage || largest(density) < damaging_density_[n]) continue;
+    const auto first = std::find_if(density.begin(), density.end(),
+                                    [&](double value) { return value >= damaging_density_[n]; });
+    const auto i = static_cast<std::size_t>(first - density.begin());
+    memory_[n].damage =
+        FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
   }
 }
 

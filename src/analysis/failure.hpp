@@ -33,9 +33,10 @@ class FailureAnalysis {
   };
   std::vector<Extent> extents_;
   std::optional<std::size_t> projectile_, target_;
-  std::size_t direction_ = 1;   ///< component along which the projectile moves
-  double sense_ = -1.0;         ///< and its sign
-  std::vector<Memory> memory_;  ///< by body
+  std::size_t direction_ = 1;             ///< component along which the projectile moves
+  double sense_ = -1.0;                   ///< and its sign
+  std::vector<double> damaging_density_;  ///< by body: the crack density at which damage passes its threshold
+  std::vector<Memory> memory_;            ///< by body
 };
 
 }  // namespace vitrum

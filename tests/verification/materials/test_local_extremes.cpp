@@ -76,6 +76,30 @@ TEST_CASE("where a path stands still nothing happens, whatever went before", "[l
   CHECK(localised > 50);
 }
 
+/// By how much the stress lies outside the yield surface, and the traction beyond the strength of the plane;
+/// 1: the strength at first.
+double outside(const Material& material, const PointState& s) {
+  const MaterialParameters& p = material.parameters();
+  const Moduli m = material.secant_moduli(s);
+  double most = 0.0;
+  if (p.von_mises) {
+    const VonMisesLaw law(*p.von_mises);
+    most = std::max(most, law.yield_function(s.elastic_strain, m, s.plastic_strain) / law.radius(0.0));
+  }
+  if (p.drucker_prager && trace(s.elastic_strain) < 0.0) {
+    const DruckerPragerLaw law(*p.drucker_prager);
+    most = std::max(most, law.yield_function(s.elastic_strain, m) / p.drucker_prager->yield);
+  }
+  if (is_localised(s) && !is_separated(s)) {
+    const DecohesionLaw law(*p.decohesion);
+    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const SymmetricTensor stress = m.stress(s.elastic_strain);
+    const double traction = law.effective_traction(plane.normal_part(stress), plane.tangential_part(stress));
+    most = std::max(most, (traction - law.strength(s.decohesion, s.cohesive_strength)) / s.cohesive_strength);
+  }
+  return most;
+}
+
 TEST_CASE("the paper's materials on random paths that reverse and stand still", "[local][extreme]") {
   std::vector<MaterialParameters> materials;
   for (const double opening : {1.6e-9, 5.0e-6, 1.0e-4}) {
@@ -90,21 +114,24 @@ TEST_CASE("the paper's materials on random paths that reverse and stand still", 
       materials.back().drucker_prager->associated = associated;
     }
   Random random(177);
-  int failed = 0, all = 0;
+  int failed = 0, left_outside = 0, all = 0;
   for (int sample = 0; sample < 300; ++sample)
     for (const MaterialParameters& p : materials) {
       const auto material = make_material(p, cell);
       auto path =
           path_with_reversals(random, random.logarithmic(3e-4, 3e-2), random.logarithmic(1e2, 1e6), 4);
       path.push_back({{}, path.back().duration});
-      for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-3))) {
+      const double rtol = random.logarithmic(1e-9, 1e-3);
+      for (const LocalSolver& solver : solvers(rtol)) {
         const Driven d = drive(*material, path, 1 + sample % 3, {}, solver.integrator.get());
         failed += d.cause.empty() ? 0 : 1, ++all;
+        left_outside += outside(*material, d.state) > 10.0 * rtol + 1e-9 ? 1 : 0;
       }
     }
-  CAPTURE(failed);
+  CAPTURE(failed, left_outside);
   CHECK(all == 6300);
-  CHECK(failed <= 4);  // "changes of mode", where flow and decohesion soften together
+  CHECK(failed == 0);
+  CHECK(left_outside <= 2);  // (steel that has next to no strength left, solved to 1e-4 of it)
 }
 
 TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
