@@ -179,11 +179,14 @@ class Composite final : public Material {
     return elastic_.shear;
   }
 
-  // composite_modes.hpp
+  // composite_modes.hpp, composite_settle.hpp
   void choose(EvolutionMode& mode, std::optional<Root> root, PointState& s, const StrainPath& path,
               double fraction, PointReport& report) const;
   void choose_damage(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction,
                      PointReport& report) const;
+  bool jump(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction, bool runs_away,
+            PointReport& report) const;
+  bool is_near_surface(const EvolutionMode& mode, const PointState& s) const;
   bool on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const;
   bool at_strength(const EvolutionMode& mode, const PointState& s) const;
   void set_branch(EvolutionMode& mode, const PointState& s) const;
@@ -191,11 +194,15 @@ class Composite final : public Material {
                    bool may_open, bool surface_reached) const;
 
   // composite_jumps.hpp
-  void fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
-                         PointReport& report) const;
+  bool fall_onto_surface(const EvolutionMode& mode, PointState& s, Dissipation& dissipation) const;
+  bool is_overloaded(const EvolutionMode& mode, const PointState& s) const;
+  void meet_surfaces(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  void land(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   bool falls_through(const EvolutionMode& mode, const PointState& s) const;
-  void fall_at_constant_strain(const EvolutionMode& mode, PointState& s, PointReport& report) const;
+  void fall_at_constant_strain(EvolutionMode& mode, PointState& s, double fraction,
+                               PointReport& report) const;
   bool snaps_back_alone(EvolutionMode mode, const PointState& s, const StrainPath& path) const;
+  bool flow_with_plane(PointState& s, const Moduli& m, double amount) const;
   void fall_with_plane(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   bool localises(const EvolutionMode& mode, const PointState& s) const;
   void localise(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;

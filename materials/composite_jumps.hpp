@@ -6,19 +6,61 @@
 
 namespace vitrum {
 
-/// Shear that only tension allowed, or an initial stress, falls onto the yield surface at constant strain.
+/// Shear that only tension allowed, or an initial stress, falls onto the yield surface at constant strain;
+/// whether there was any.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_onto_surface(const EvolutionMode& mode, PointState& s, double fraction,
-                                           PointReport& report) const {
-  if (!surface_acts(mode.tension)) return;
+bool Composite<D, Y, C>::fall_onto_surface(const EvolutionMode& mode, PointState& s,
+                                           Dissipation& dissipation) const {
+  if (!surface_acts(mode.tension)) return false;
   const Moduli m = secant(mode.tension, s.crack_density);
   const double excess = yield_function(s, m);
-  if (!(excess > 1e-9 * m.shear * norm(deviator(s.elastic_strain)))) return;
-  if (C && mode.separated())
-    flow_behind_crack(s, excess, report.dissipation);
-  else
-    report.dissipation.plastic += flow(s, m, excess);
-  report.record(EventKind::yield, fraction);
+  if (!(excess > 1e-9 * m.shear * norm(deviator(s.elastic_strain)))) return false;
+  if (C && mode.separated()) {
+    flow_behind_crack(s, excess, dissipation);
+    return true;
+  }
+  const double stored = m.energy(s.elastic_strain);
+  flow(s, m, excess);
+  dissipation.plastic += std::max(0.0, stored - m.energy(s.elastic_strain));
+  return true;
+}
+
+/// Whether the traction is more than the plane bears.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::is_overloaded(const EvolutionMode& mode, const PointState& s) const {
+  if (mode.viscous || !(mode.plane == EvolutionMode::Plane::held || mode.decohering())) return false;
+  const PlaneTraction t =
+      traction({s.normal_r, s.normal_z}, s.elastic_strain, secant(mode.tension, s.crack_density));
+  return decohesion_.effective_traction(t.normal, t.tangential) >
+         decohesion_.strength(s.decohesion, s.cohesive_strength) + 1e-9 * s.cohesive_strength;
+}
+
+/// Stress outside the yield surface falls onto it at constant strain. That may load a plane with more than it
+/// bears, which then opens at once, and leaves stress outside again.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::meet_surfaces(EvolutionMode& mode, PointState& s, double fraction,
+                                       PointReport& report) const {
+  if constexpr (has_yield) {
+    constexpr int most_turns = 64;
+    bool fell = false;
+    for (int turn = 0; turn < most_turns && fall_onto_surface(mode, s, report.dissipation); ++turn) {
+      if (!fell) report.record(EventKind::yield, fraction);
+      fell = true;
+      if constexpr (C) {
+        if (!is_overloaded(mode, s)) break;
+        snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
+        if (is_separated(s)) enter_separated(mode, s, fraction, report);
+      }
+    }
+  }
+}
+
+/// After a jump, which may have left the yield surface to either side: what lies inside flows no more.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::land(EvolutionMode& mode, PointState& s, double fraction,
+                              PointReport& report) const {
+  meet_surfaces(mode, s, fraction, report);
+  mode.flowing = mode.flowing && is_near_surface(mode, s);
 }
 
 /// Whether the strength falls faster than elastic unloading at constant strain.
@@ -36,12 +78,14 @@ bool Composite<D, Y, C>::falls_through(const EvolutionMode& mode, const PointSta
 /// Softening faster than elasticity unloads: the stress falls at constant strain to where the strength meets
 /// it.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_at_constant_strain(const EvolutionMode& mode, PointState& s,
+void Composite<D, Y, C>::fall_at_constant_strain(EvolutionMode& mode, PointState& s, double fraction,
                                                  PointReport& report) const {
   const double stored = stored_energy(s);
   if (!C || !mode.separated()) {
     s.elastic_strain += 1e-12 * deviator(s.elastic_strain);
-    report.dissipation.plastic += flow(s, secant(mode.tension, s.crack_density), 0.0);
+    flow(s, secant(mode.tension, s.crack_density), 0.0);
+    report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
+    land(mode, s, fraction, report);
     return;
   }
   if constexpr (C) {
@@ -64,6 +108,7 @@ void Composite<D, Y, C>::fall_at_constant_strain(const EvolutionMode& mode, Poin
     Dissipation beyond;
     flow_behind_crack(s, std::numeric_limits<double>::infinity(), beyond);
     report.dissipation += beyond;
+    land(mode, s, fraction, report);
   }
 }
 
@@ -72,54 +117,72 @@ template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::snaps_back_alone(EvolutionMode mode, const PointState& s,
                                           const StrainPath& path) const {
   mode.flowing = false;
-  return !(rates(mode, s, path).fraction > 0.0);
+  return !rates(mode, s, path).advances();
+}
+
+/// A bit of plastic flow at constant strain, after which the plane opens as its strength demands. False, with
+/// the plane as it was, where no equilibrium is left to it.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::flow_with_plane(PointState& s, const Moduli& m, double amount) const {
+  s.elastic_strain -= std::min(amount, norm(deviator(s.elastic_strain))) * flow_direction(s);
+  s.plastic_strain += amount;
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
+  const PlaneTraction t = traction(plane, s.elastic_strain, m);
+  if (decohesion_.effective_traction(t.normal, t.tangential) <=
+      decohesion_.strength(s.decohesion, s.cohesive_strength))
+    return true;
+  const DecohesionLaw::Advance next =
+      decohesion_.advance(s.decohesion, s.cohesive_strength, t, s.effective_length, 0.0);
+  if (next.separates) return false;
+  s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
+  s.decohesion = next.decohesion;
+  s.opening_n += next.normal_opening, s.opening_t += next.tangential_opening;
+  return true;
 }
 
 /// Flow raises the traction on the plane, and its opening the stress measure, faster than both soften: the
-/// point falls at constant strain. It flows in small steps to the end of the branch, or until the stress is
-/// inside again, while the plane opens as its strength demands, if need be until it separates.
+/// point falls at constant strain. It flows along the branches of its strength in small steps, and the plane
+/// opens with it, until the stress meets the yield surface from outside, or the plane separates.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::fall_with_plane(EvolutionMode& mode, PointState& s, double fraction,
                                          PointReport& report) const {
   if constexpr (Y == Yielding::von_mises && C) {
-    constexpr int steps = 64;
+    constexpr int branches = 3, steps = 64;
     const Moduli m = secant(mode.tension, s.crack_density);
-    const DecohesionPlane plane{s.normal_r, s.normal_z};
-    const double stored = stored_energy(s), start = s.decohesion;
-    const double span = std::min(mode.branch_end - s.plastic_strain, norm(deviator(s.elastic_strain)));
-    bool separates = false;
-    const auto follow = [&] {
-      const PlaneTraction t = traction(plane, s.elastic_strain, m);
-      if (decohesion_.effective_traction(t.normal, t.tangential) <=
-          decohesion_.strength(s.decohesion, s.cohesive_strength))
-        return;
-      const DecohesionLaw::Advance next =
-          decohesion_.advance(s.decohesion, s.cohesive_strength, t, s.effective_length, 0.0);
-      separates = next.separates;
-      if (separates) return;
-      s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
-      s.decohesion = next.decohesion;
-      s.opening_n += next.normal_opening, s.opening_t += next.tangential_opening;
-    };
-    const double end = s.plastic_strain + span;
-    for (int i = 0; i < steps && !separates && (i == 0 || yield_function(s, m) > 0.0); ++i) {
-      s.elastic_strain -= std::min(span / steps, norm(deviator(s.elastic_strain))) * flow_direction(s);
-      s.plastic_strain = i + 1 == steps ? end : s.plastic_strain + span / steps;
-      follow();
-    }
-    // What is still outside at the end of the branch falls on along the next one.
-    constexpr int most_turns = 50;
-    const double tolerance = 1e-9 * m.shear * norm(deviator(s.elastic_strain));
-    for (int turn = 0; turn < most_turns && !separates && yield_function(s, m) > tolerance; ++turn) {
-      flow(s, m, 0.0);
-      follow();
+    const double stored = stored_energy(s), decohesion = s.decohesion;
+    bool together = true, inside = false;
+    for (int branch = 0; branch < branches && together && !inside; ++branch) {
+      set_branch(mode, s);
+      const double size = norm(deviator(s.elastic_strain));
+      const bool to_end = mode.branch_end - s.plastic_strain <= size;
+      const double amount = std::min(mode.branch_end - s.plastic_strain, size) / steps;
+      for (int i = 0; i < steps && together && !inside; ++i) {
+        const PointState before = s;
+        together = flow_with_plane(s, m, amount);
+        if (to_end && i + 1 == steps) s.plastic_strain = mode.branch_end;
+        inside = together && yield_function(s, m) < 0.0;
+        if (!inside) continue;
+        // Back to where the stress met the surface, unless it has never been outside.
+        const auto met = [&](double part) {
+          PointState tried = before;
+          return flow_with_plane(tried, m, part * amount) && yield_function(tried, m) < 0.0;
+        };
+        const double part = first_reached(0.0, 1.0, met);
+        if (part < 1e-6) continue;
+        s = before;
+        flow_with_plane(s, m, part * amount);
+      }
+      if (to_end && !inside && mode.hardening_modulus > 0.0) report.record(EventKind::peak, fraction);
     }
     const double surface =
-        decohesion_.surface_energy(start, s.decohesion, s.cohesive_strength) / s.effective_length;
+        decohesion_.surface_energy(decohesion, s.decohesion, s.cohesive_strength) / s.effective_length;
     report.dissipation.fracture += surface;
     report.dissipation.plastic += std::max(0.0, stored - stored_energy(s) - surface);
     mode.plane = EvolutionMode::Plane::held;
-    if (separates) separate_plane(mode, s, fraction, report);
+    if (together)
+      land(mode, s, fraction, report);
+    else
+      separate_plane(mode, s, fraction, report);
   }
 }
 
@@ -153,6 +216,7 @@ void Composite<D, Y, C>::release_plane(EvolutionMode& mode, PointState& s, doubl
     snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
     mode.plane = EvolutionMode::Plane::held;
     if (is_separated(s)) enter_separated(mode, s, fraction, report);
+    land(mode, s, fraction, report);
   }
 }
 
@@ -162,6 +226,7 @@ void Composite<D, Y, C>::separate_plane(EvolutionMode& mode, PointState& s, doub
   if constexpr (C) {
     separate(s, secant(mode.tension, s.crack_density), report.dissipation);
     enter_separated(mode, s, fraction, report);
+    land(mode, s, fraction, report);
   }
 }
 

@@ -46,7 +46,9 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
       localise(mode, s, fraction, report);
       break;
     case Root::snap_back:
-      if (mode.flowing && !snaps_back_alone(mode, s, path))
+      if (mode.separated())
+        fall_at_constant_strain(mode, s, fraction, report);
+      else if (Y == Yielding::von_mises && mode.flowing && !snaps_back_alone(mode, s, path))
         fall_with_plane(mode, s, fraction, report);
       else
         release_plane(mode, s, fraction, report);
@@ -92,41 +94,58 @@ template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, PointState& s,
                                 const StrainPath& path, double fraction, PointReport& report) const {
   if constexpr (D) choose_damage(mode, s, path, fraction, report);
-  if constexpr (has_yield) fall_onto_surface(mode, s, fraction, report);
+  meet_surfaces(mode, s, fraction, report);
   // A jump may ask for another: a bounded number of times.
   constexpr int most_jumps = 8;
-  for (int i = 0; i < most_jumps; ++i) {
+  for (int jumps = 0;; ++jumps) {
     using Plane = EvolutionMode::Plane;
     // What strength is left is the error of the integration.
     const double separated = 1.0 - std::max(1e-12, 10.0 * path.tolerance);
-    if ((mode.plane == Plane::held || mode.decohering()) && s.decohesion >= separated)
+    if ((mode.plane == Plane::held || mode.decohering()) && s.decohesion >= separated) {
       separate_plane(mode, s, fraction, report);
+      root.reset();
+    }
     const bool may_flow = root != Root::unload && on_surface(mode, s, root == Root::yield);
     const bool may_open = root != Root::stall && at_strength(mode, s);
     set_branch(mode, s);
     const bool runs_away = choose_flow(mode, s, path, may_flow, may_open, root == Root::yield);
+    if (jumps == most_jumps) {
+      // What still falls does so when the next increment begins.
+      mode.flowing = mode.flowing && !runs_away && !(Y == Yielding::von_mises && falls_through(mode, s));
+      return;
+    }
     if constexpr (C) {
-      if (runs_away) {
-        fall_with_plane(mode, s, fraction, report);
-        continue;
-      }
-      if (mode.decohering() && !mode.viscous && !(rates(mode, s, path).fraction > 0.0)) {
-        release_plane(mode, s, fraction, report);
-        continue;
-      }
-      if (mode.plane == EvolutionMode::Plane::intact && localises(mode, s)) {
+      if (mode.plane == Plane::intact && localises(mode, s)) {
         localise(mode, s, fraction, report);
         continue;
       }
     }
-    if constexpr (Y == Yielding::von_mises) {
-      if (mode.flowing && falls_through(mode, s)) {
-        fall_at_constant_strain(mode, s, report);
-        continue;
-      }
-    }
-    return;
+    if (!jump(mode, s, path, fraction, runs_away, report)) return;
+    root.reset();  // it was of the state before
   }
+}
+
+/// Performs the jump that the state asks for, if any.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::jump(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction,
+                              bool runs_away, PointReport& report) const {
+  if constexpr (C) {
+    if (runs_away) {
+      fall_with_plane(mode, s, fraction, report);
+      return true;
+    }
+    if (mode.decohering() && !mode.viscous && !rates(mode, s, path).advances()) {
+      release_plane(mode, s, fraction, report);
+      return true;
+    }
+  }
+  if constexpr (Y == Yielding::von_mises) {
+    if (mode.flowing && falls_through(mode, s)) {
+      fall_at_constant_strain(mode, s, fraction, report);
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Rate and coefficient of eq. 7 on this side, and whether the crack density grows.
@@ -154,16 +173,21 @@ void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, PointState& s, const
   mode.damaging = grows;
 }
 
+/// Whether the stress is not inside the yield surface, rounding aside.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const {
+bool Composite<D, Y, C>::is_near_surface(const EvolutionMode& mode, const PointState& s) const {
   if constexpr (has_yield) {
     if (!surface_acts(mode.tension)) return false;
-    if (reached || mode.flowing) return true;
     const Moduli m = secant(mode.tension, s.crack_density);
     return yield_function(s, m) >= -1e-9 * m.shear * norm(deviator(s.elastic_strain));
   } else {
     return false;
   }
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const {
+  return surface_acts(mode.tension) && (reached || mode.flowing || is_near_surface(mode, s));
 }
 
 template <bool D, Yielding Y, bool C>
@@ -217,21 +241,24 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
       // the material flows.
       mode.flowing = false;
       const EvolutionRates alone = rates(mode, s, path);
-      if (alone.decohesion > 0.0 && !(alone.fraction > 0.0)) return false;
+      if (alone.decohesion > 0.0 && !alone.advances()) return false;
       mode.flowing = may_flow;
     }
   }
   if constexpr (has_yield || C) {
-    const bool falls = mode.flowing && Y == Yielding::von_mises && falls_through(mode, s);
+    if (mode.flowing && Y == Yielding::von_mises && falls_through(mode, s)) {
+      if (mode.decohering()) mode.plane = Plane::held;  // the fall comes first
+      return false;
+    }
     if (mode.flowing && mode.decohering()) {
       const EvolutionRates together = rates(mode, s, path);
       const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
       // Otherwise one goes on and relieves the other.
-      if (together.fraction > 0.0 && opens && flows) return false;
-      if (opens && !(together.fraction > 0.0)) {
+      if (together.advances() && opens && flows) return false;
+      if (opens && !together.advances()) {
         // What flows behind the plane drives it beyond what it can bear, too.
         if (snaps_back_alone(mode, s, path)) return mode.flowing = false;
-        if (Y == Yielding::von_mises && flows && !falls) return true;
+        if (Y == Yielding::von_mises && flows) return true;
       }
       EvolutionMode flow_alone = mode;
       flow_alone.plane = Plane::held;
@@ -244,52 +271,9 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     const EvolutionRates r = rates(mode, s, path);
     if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
     // (A path that has just reached the surface leaves it outwards, whatever rounding makes of the angle.)
-    if (mode.flowing && !(r.plastic_strain > 0.0) && !falls && !surface_reached) mode.flowing = false;
+    if (mode.flowing && !(r.plastic_strain > 0.0) && !surface_reached) mode.flowing = false;
   }
   return false;
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::settle(const EvolutionMode& mode, PointState& s, const StrainPath&) const {
-  if constexpr (C) {
-    if (mode.decohering() && !mode.viscous) {
-      const Moduli m = secant(mode.tension, s.crack_density);
-      const double u0 = decohesion_.reference_opening();
-      for (int i = 0; i < 2; ++i) {
-        const Softening w = softening(mode, s, m);
-        const double resistance = w.stiffness + w.slope;
-        if (!(resistance > 1e-3 * w.stiffness)) break;  // next to a snap-back the correction is ill-posed
-        const double step = (w.drive.traction - w.strength) / resistance;
-        if (!(std::abs(step) < 1e-2) || s.decohesion + step >= 1.0) break;
-        s.decohesion += step;
-        s.opening_n += step * u0 * w.drive.normal;
-        s.opening_t += step * u0 * w.drive.tangential;
-        s.elastic_strain -= step * w.jump;
-      }
-    }
-  }
-  for (int i = 0; i < 3; ++i) {
-    if constexpr (C)
-      if (mode.separated()) relax_crack(s);
-    if constexpr (has_yield) {
-      if (mode.flowing) {
-        const Moduli m = secant(mode.tension, s.crack_density);
-        const SymmetricTensor direction = flow_direction(s);
-        SymmetricTensor given = direction;
-        double gap = 0.0, slip = 0.0;
-        if constexpr (C)
-          if (mode.separated()) given = give_way(mode, s, m, direction, gap, slip);
-        double stiffness = contract(yield_gradient(s, m), given);
-        if constexpr (Y == Yielding::von_mises) stiffness += VonMisesLaw::factor * mode.hardening_modulus;
-        if (!(stiffness > 0.0)) return;
-        const double step = yield_function(s, m) / stiffness;
-        s.elastic_strain -= step * given;
-        s.plastic_strain += step;
-        s.opening_n -= gap * step, s.opening_t -= slip * step;
-      }
-    }
-    if (!mode.flowing || !mode.separated()) break;
-  }
 }
 
 }  // namespace vitrum

@@ -143,7 +143,13 @@ EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const PointS
       r.opening_t = decohesion_.reference_opening() * w.drive.tangential * opening_rate;
     }
   }
-  if (mode.flowing && !mode.decohering()) flow_rate = flow_drive / plastic_stiffness;
+  if (mode.flowing && !mode.decohering()) {
+    // As above: divided by the part without softening where the faces of a plane give way.
+    const double reference = mode.may_snap_back() ? contract(gradient, direction) : plastic_stiffness;
+    r.fraction = plastic_stiffness / reference;
+    flow_rate = flow_drive / reference;
+    r.opening_n *= r.fraction, r.opening_t *= r.fraction;
+  }
   r.elastic_strain = r.fraction * strain - opening_rate * jump - flow_rate * given;
   if constexpr (has_yield) {
     if (mode.flowing) {
@@ -230,6 +236,8 @@ void Composite<D, Y, C>::events(const EvolutionMode& mode, const PointState& s, 
   if constexpr (has_yield) {
     if (mode.flowing) {
       g.add(Root::unload, -r.plastic_strain * per_size);
+      if (mode.separated() && mode.may_snap_back())
+        g.add(Root::snap_back, 0.5 * EvolutionRates::least_fraction - r.fraction);
       if constexpr (Y == Yielding::von_mises) {
         if (std::isfinite(mode.branch_end)) g.add(Root::branch, s.plastic_strain / mode.branch_end - 1.0);
         if constexpr (C)
@@ -254,7 +262,7 @@ void Composite<D, Y, C>::events(const EvolutionMode& mode, const PointState& s, 
         g.add(Root::stall, (w.strength - w.drive.traction) / strength_scale);
       } else {
         g.add(Root::stall, -r.decohesion * per_size * decohesion_.reference_opening() / s.effective_length);
-        g.add(Root::snap_back, -r.fraction);
+        g.add(Root::snap_back, 0.5 * EvolutionRates::least_fraction - r.fraction);
       }
       g.add(Root::pull, (mode.pulled ? -traction_now.normal : traction_now.normal) / strength_scale);
       g.add(Root::separation, s.decohesion - 1.0);

@@ -45,16 +45,27 @@ struct EvolutionMode {
   /// Whether anything but the elastic strain changes along a curve; otherwise the state moves along a
   /// straight line.
   bool evolves() const { return damaging || flowing || decohering(); }
+  /// Whether the strain may have to go back for the state to stay in equilibrium: a plane that softens
+  /// without viscosity, or softening flow behind faces that give way.
+  bool may_snap_back() const {
+    return (decohering() && !viscous) || (flowing && separated() && hardening_modulus < 0.0);
+  }
 };
 
-/// d(state)/d(parameter). The parameter is the fraction of the path, except where a plane decoheres without
-/// viscosity: there `fraction` falls to zero as the plane approaches a snap-back, where the rates with
-/// respect to the fraction would be infinite.
+/// d(state)/d(parameter). The parameter is the fraction of the path, except in a mode that may snap back:
+/// there `fraction` falls to zero as the state approaches that, where the rates with respect to the fraction
+/// would be infinite.
 struct EvolutionRates {
+  /// Where it is less than this, the state can no longer follow the path: what would take a millionth of the
+  /// increment is a jump.
+  static constexpr double least_fraction = 1e-6;
+
   double fraction = 1.0;
   SymmetricTensor elastic_strain{};
   double crack_density = 0.0, plastic_strain = 0.0, decohesion = 0.0, opening_n = 0.0, opening_t = 0.0;
   double plastic = 0.0, damage = 0.0, fracture = 0.0;  ///< dissipation, J/m^3
+
+  bool advances() const { return fraction > least_fraction; }
 };
 
 /// How the rates of a decohering plane (without flow) depend on what the plane has done: rows lambda, normal

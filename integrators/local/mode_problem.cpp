@@ -13,7 +13,7 @@ ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, co
       start_(state),
       start_fraction_(fraction),
       parameter_end_(1.0 - fraction),
-      fraction_is_unknown_(mode.decohering() && !mode.viscous) {
+      fraction_is_unknown_(mode.may_snap_back()) {
   const MaterialParameters& p = material.parameters();
   constexpr double nothing = 1.0e-100;  // keeps the scales of a point at rest off zero
   const double change = std::max(norm(path.strain), nothing), strain = norm(state.elastic_strain) + change;
