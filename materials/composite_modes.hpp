@@ -95,20 +95,21 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
                                 const StrainPath& path, double fraction, PointReport& report) const {
   if constexpr (D) choose_damage(mode, s, path, fraction, report);
   meet_surfaces(mode, s, fraction, report);
-  // A jump may ask for another: a bounded number of times.
+  // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
+  bool unloads = root == Root::unload, stalls = root == Root::stall, reached = root == Root::yield;
   for (int jumps = 0;; ++jumps) {
     using Plane = EvolutionMode::Plane;
     // What strength is left is the error of the integration.
     const double separated = 1.0 - std::max(1e-12, 10.0 * path.tolerance);
     if ((mode.plane == Plane::held || mode.decohering()) && s.decohesion >= separated) {
       separate_plane(mode, s, fraction, report);
-      root.reset();
+      unloads = stalls = reached = false;
     }
-    const bool may_flow = root != Root::unload && on_surface(mode, s, root == Root::yield);
-    const bool may_open = root != Root::stall && at_strength(mode, s);
+    const bool may_flow = !unloads && on_surface(mode, s, reached),
+               may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
-    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open, root == Root::yield);
+    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open, reached);
     if (jumps == most_jumps) {
       // What still falls does so when the next increment begins.
       mode.flowing = mode.flowing && !runs_away && !(Y == Yielding::von_mises && falls_through(mode, s));
@@ -121,7 +122,7 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
       }
     }
     if (!jump(mode, s, path, fraction, runs_away, report)) return;
-    root.reset();  // it was of the state before
+    unloads = stalls = reached = false;
   }
 }
 
