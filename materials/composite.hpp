@@ -140,6 +140,7 @@ class Composite final : public Material {
                           double& separated_at, Dissipation& dissipation) const;
   double advance_separated(PointState& s, const SymmetricTensor& strain) const;
   void snap_back(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
+  void open_plane(PointState& s, const DecohesionLaw::Advance& next) const;
   void separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void relax_crack(PointState& s) const;
   void flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const;

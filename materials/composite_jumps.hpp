@@ -134,9 +134,7 @@ bool Composite<D, Y, C>::flow_with_plane(PointState& s, const Moduli& m, double 
   const DecohesionLaw::Advance next =
       decohesion_.advance(s.decohesion, s.cohesive_strength, t, s.effective_length, 0.0);
   if (next.separates) return false;
-  s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
-  s.decohesion = next.decohesion;
-  s.opening_n += next.normal_opening, s.opening_t += next.tangential_opening;
+  open_plane(s, next);
   return true;
 }
 

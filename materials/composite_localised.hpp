@@ -148,13 +148,20 @@ void Composite<D, Y, C>::snap_back(PointState& s, const Moduli& moduli, Dissipat
   const double before = moduli.energy(s.elastic_strain);
   const double surface =
       decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength) / s.effective_length;
+  open_plane(s, next);
+  const double excess = std::max(0.0, before - moduli.energy(s.elastic_strain) - surface);
+  dissipation.fracture += surface + excess;
+  dissipation.snap_back += excess;
+}
+
+/// Opens the plane at constant strain.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::open_plane(PointState& s, const DecohesionLaw::Advance& next) const {
+  const DecohesionPlane plane{s.normal_r, s.normal_z};
   s.elastic_strain -= plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);
   s.decohesion = next.decohesion;
   s.opening_n += next.normal_opening;
   s.opening_t += next.tangential_opening;
-  const double excess = std::max(0.0, before - moduli.energy(s.elastic_strain) - surface);
-  dissipation.fracture += surface + excess;
-  dissipation.snap_back += excess;
 }
 
 /// lambda := 1: the traction on the plane is released. A snap-back sets free more than eq. 13 asks for.
