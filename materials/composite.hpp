@@ -188,11 +188,12 @@ class Composite final : public Material {
   bool jump(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction, bool runs_away,
             PointReport& report) const;
   bool is_near_surface(const EvolutionMode& mode, const PointState& s) const;
+  void step_inside(const EvolutionMode& mode, PointState& s) const;
   bool on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const;
   bool at_strength(const EvolutionMode& mode, const PointState& s) const;
   void set_branch(EvolutionMode& mode, const PointState& s) const;
   bool choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path, bool may_flow,
-                   bool may_open, bool surface_reached) const;
+                   bool may_open) const;
 
   // composite_jumps.hpp
   bool fall_onto_surface(const EvolutionMode& mode, PointState& s, Dissipation& dissipation) const;

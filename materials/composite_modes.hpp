@@ -109,7 +109,8 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
     const bool may_flow = !unloads && on_surface(mode, s, reached),
                may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
-    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open, reached);
+    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open);
+    if (reached && !mode.flowing) step_inside(mode, s);
     if (jumps == most_jumps) {
       // What still falls does so when the next increment begins.
       mode.flowing = mode.flowing && !runs_away && !(Y == Yielding::von_mises && falls_through(mode, s));
@@ -186,6 +187,21 @@ bool Composite<D, Y, C>::is_near_surface(const EvolutionMode& mode, const PointS
   }
 }
 
+/// The path reached the yield surface by an error of the integration, or at too flat an angle for rounding to
+/// tell that it does. It begins anew a rounding inside, so that no event function starts above zero, where
+/// CVODE would never see it cross; what that takes from the stored energy is a rounding, too.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::step_inside(const EvolutionMode& mode, PointState& s) const {
+  if constexpr (has_yield) {
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const SymmetricTensor d = deviator(s.elastic_strain);
+    const double slope = contract(yield_gradient(s, m), d);
+    if (!(slope > 0.0)) return;
+    const double excess = std::max(0.0, yield_function(s, m)) / slope;
+    s.elastic_strain -= (excess + 1e-12) * d;
+  }
+}
+
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const PointState& s, bool reached) const {
   return surface_acts(mode.tension) && (reached || mode.flowing || is_near_surface(mode, s));
@@ -223,7 +239,7 @@ void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const PointState& s) co
 /// does.
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, const StrainPath& path,
-                                     bool may_flow, bool may_open, bool surface_reached) const {
+                                     bool may_flow, bool may_open) const {
   using Plane = EvolutionMode::Plane;
   if constexpr (C) {
     mode.viscous = decohesion_.viscosity() > 0.0;
@@ -271,8 +287,7 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     }
     const EvolutionRates r = rates(mode, s, path);
     if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
-    // (A path that has just reached the surface leaves it outwards, whatever rounding makes of the angle.)
-    if (mode.flowing && !(r.plastic_strain > 0.0) && !surface_reached) mode.flowing = false;
+    if (mode.flowing && !(r.plastic_strain > 0.0)) mode.flowing = false;
   }
   return false;
 }

@@ -149,7 +149,8 @@ void check_overlap(const TableReader& table, const BodyDefinition& body, const S
 
 BodyDefinition read_body(const TableReader& table, const Scene& scene) {
   BodyDefinition body;
-  if (table.read("name", body.name) && body.name.empty()) table.fail("name", "a name that is not empty");
+  if (table.read("name", body.name) && (body.name.empty() || has_control_characters(body.name)))
+    table.fail("name", "a name that is not empty, without line breaks or other control characters");
   if (table.read("material", body.material)) check_material(table, body, scene);
   const auto shape = read_shape(table);
   if (shape) {

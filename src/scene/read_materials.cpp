@@ -129,6 +129,10 @@ std::vector<MaterialParameters> read_materials(const TableReader& document) {
   for (auto& [position, name] : entries) {
     const std::string path = join_path("material", name);
     const toml::node& entry = *list->get(name);
+    if (has_control_characters(name))
+      document.diagnostics().add(
+          path, entry.source().begin, path,
+          "found control characters in the name, expected none: tables and messages have a line for each");
     if (const toml::table* table = entry.as_table())
       materials.push_back(read_material({*table, path, keys::material(), document.diagnostics()}, name));
     else

@@ -62,6 +62,10 @@ std::string join_path(std::string_view path, std::size_t index) {
   return path.empty() ? std::to_string(index) : fmt::format("{}.{}", path, index);
 }
 
+bool has_control_characters(std::string_view text) {
+  return std::ranges::any_of(text, is_control);
+}
+
 std::string single_line(std::string_view text) {
   std::string result(text);
   std::ranges::replace_if(result, is_control, ' ');

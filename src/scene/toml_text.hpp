@@ -18,6 +18,9 @@ std::string key_text(std::string_view key);
 std::string join_path(std::string_view path, std::string_view key);
 std::string join_path(std::string_view path, std::size_t index);
 
+/// Whether a text holds control characters (line breaks among them).
+bool has_control_characters(std::string_view text);
+
 /// `text` with every control character replaced by a space: messages are single lines.
 std::string single_line(std::string_view text);
 

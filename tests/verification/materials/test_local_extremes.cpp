@@ -131,6 +131,38 @@ TEST_CASE("the paper's materials on random paths that reverse and stand still", 
   CHECK(left_outside <= 2);  // (steel that has next to no strength left, solved to 1e-4 of it)
 }
 
+TEST_CASE("damage that grows to its end while the material flows", "[local][extreme]") {
+  // Damage takes stress away and so ends the flow, which errors of the integration seemed to begin anew: the
+  // flow then went backwards, unseen, until the solver gave up.
+  std::vector<MaterialParameters> materials;
+  for (const double softening : {0.0, 10e9, 40e9, 80e9})
+    for (const double opening : {0.0, 5.0e-6, 1.0e-4}) {
+      MaterialParameters p = damaging_glass();
+      p.von_mises = softening > 0.0 ? VonMisesParameters{40e6, 50e6, 10e9, softening}
+                                    : VonMisesParameters{40e6, 40e6, 0.0, 0.0};
+      if (opening > 0.0) p.decohesion = glass_decohesion(), p.decohesion->opening = opening;
+      materials.push_back(p);
+    }
+  Random random(4242);
+  int failed = 0, backwards = 0, exhausted = 0;
+  for (int sample = 0; sample < 100; ++sample)
+    for (const MaterialParameters& p : materials) {
+      const auto material = make_material(p, cell);
+      auto path =
+          path_with_reversals(random, random.logarithmic(3e-4, 3e-2), random.logarithmic(1e2, 1e6), 4);
+      path.push_back({{}, path.back().duration});
+      for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-3))) {
+        const Driven d = drive(*material, path, 1 + sample % 3, {}, solver.integrator.get());
+        failed += d.cause.empty() ? 0 : 1;
+        backwards += d.state.plastic_strain < 0.0 ? 1 : 0;
+        exhausted += d.state.crack_density == crack_density_limit ? 1 : 0;
+      }
+    }
+  CHECK(failed == 0);
+  CHECK(backwards == 0);
+  CHECK(exhausted > 100);
+}
+
 TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
           "[local][verification]") {
   const auto glass = make_material(fracturing_glass(), cell);
