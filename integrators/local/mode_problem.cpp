@@ -202,11 +202,16 @@ void ModeProblem::settle(double parameter, double* y) const {
 }
 
 void ModeProblem::absolute_tolerances(double relative, double absolute, double* tolerances) const {
+  // Where the strength is small against the increment, a part of the increment would be all of the stress.
+  constexpr double part_of_strength = 0.1;
+  const double strength = part_of_strength * norm(deviator(start_.elastic_strain));
   for (std::size_t i = 0; i < size_; ++i) {
     const Unknown u = unknowns_[i];
     const bool alone = u == Unknown::plastic_strain || u == Unknown::crack_density ||
                        u == Unknown::decohesion || u == Unknown::fraction;
     tolerances[i] = alone ? absolute : absolute + relative;
+    if (is_elastic_strain(u) && strength > 0.0)
+      tolerances[i] = std::max(absolute, std::min(tolerances[i], strength / scales_[i]));
   }
 }
 

@@ -42,7 +42,7 @@ class ModeProblem {
   Dissipation dissipation(const double* y) const;
   /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are
   /// judged by the size of the whole, which their scale is: a component that happens to vanish needs no more
-  /// digits than the others.
+  /// digits than the others. Elastic strain is also judged by the strength at the start of the mode.
   void absolute_tolerances(double relative, double absolute, double* tolerances) const;
   /// Name of an unknown, for messages.
   const char* name(std::size_t unknown) const;
@@ -63,6 +63,7 @@ class ModeProblem {
     fracture,
     fraction,
   };
+  static bool is_elastic_strain(Unknown unknown) { return unknown <= Unknown::elastic_rz; }
   void add(Unknown unknown, double scale, double start) {
     unknowns_[size_] = unknown, scales_[size_] = scale, starts_[size_++] = start;
   }

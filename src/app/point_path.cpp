@@ -30,7 +30,7 @@ class Walk {
     local_->integrate(material_, state_, target - strain_, to - time_, report);
     if (report.failed())
       throw ComputationError(
-          fmt::format("t = {} s: {}; try constitutive.method = \"closed-form\", a larger constitutive.rtol, "
+          fmt::format("t = {} s: {}; try constitutive.method = \"closed-form\", another constitutive.rtol, "
                       "or a finer strain path",
                       time_, report.cause));
     for (std::size_t k = 0; k < report.event_count; ++k)

@@ -38,7 +38,7 @@ ParticleColumns columns_of(Particles& p, const Committed& committed) {
   throw PointFailure(
       fmt::format(
           "the local equations of body '{}', particle {} at ({:.6g}, {:.6g}) m could not be integrated over "
-          "{:.4g} s: {}; try a larger constitutive.rtol, a smaller step, or constitutive.method = "
+          "{:.4g} s: {}; try another constitutive.rtol, a smaller step, or constitutive.method = "
           "\"closed-form\"",
           system.bodies[body].name, p.identity[particle], p.position[0][particle], p.position[1][particle],
           duration, report.cause),
