@@ -42,7 +42,7 @@ class ModeProblem {
   Dissipation dissipation(const double* y) const;
   /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are
   /// judged by the size of the whole, which their scale is: a component that happens to vanish needs no more
-  /// digits than the others. Elastic strain is also judged by the strength at the start of the mode.
+  /// digits than the others. That of elastic strain is at most a tenth of its deviator at the start.
   void absolute_tolerances(double relative, double absolute, double* tolerances) const;
   /// Name of an unknown, for messages.
   const char* name(std::size_t unknown) const;
