@@ -185,6 +185,7 @@ class Composite final : public Material {
               double fraction, PointReport& report) const;
   void choose_damage(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction,
                      PointReport& report) const;
+  bool strength_is_spent(const PointState& s, const StrainPath& path) const;
   bool jump(EvolutionMode& mode, PointState& s, const StrainPath& path, double fraction, bool runs_away,
             PointReport& report) const;
   bool is_near_surface(const EvolutionMode& mode, const PointState& s) const;

@@ -35,9 +35,6 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
       s.crack_density = crack_density_limit;
       mode.damaging = false;
       break;
-    case Root::yield:
-      report.record(EventKind::yield, fraction);
-      break;
     case Root::branch:
       s.plastic_strain = mode.branch_end;
       if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction);
@@ -72,6 +69,7 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, PointState& s, co
     case Root::opening:
       mode.plane = Plane::open;
       break;
+    case Root::yield:
     case Root::unload:
     case Root::decohesion:
     case Root::stall:
@@ -98,11 +96,10 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
   // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
   bool unloads = root == Root::unload, stalls = root == Root::stall, reached = root == Root::yield;
+  bool yields = reached;
   for (int jumps = 0;; ++jumps) {
     using Plane = EvolutionMode::Plane;
-    // What strength is left is the error of the integration.
-    const double separated = 1.0 - std::max(1e-12, 10.0 * path.tolerance);
-    if ((mode.plane == Plane::held || mode.decohering()) && s.decohesion >= separated) {
+    if ((mode.plane == Plane::held || mode.decohering()) && strength_is_spent(s, path)) {
       separate_plane(mode, s, fraction, report);
       unloads = stalls = reached = false;
     }
@@ -110,6 +107,7 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
                may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
     const bool runs_away = choose_flow(mode, s, path, may_flow, may_open);
+    if (yields && mode.flowing) report.record(EventKind::yield, fraction), yields = false;
     if (reached && !mode.flowing) step_inside(mode, s);
     if (jumps == most_jumps) {
       // What still falls does so when the next increment begins.
@@ -125,6 +123,14 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
     if (!jump(mode, s, path, fraction, runs_away, report)) return;
     unloads = stalls = reached = false;
   }
+}
+
+/// Whether what strength the plane has is the error of the integration, or of rounding (it localised next to
+/// free of traction).
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::strength_is_spent(const PointState& s, const StrainPath& path) const {
+  return s.decohesion >= 1.0 - std::max(1e-12, 10.0 * path.tolerance) ||
+         s.cohesive_strength <= 1e-12 * elastic_.shear;
 }
 
 /// Performs the jump that the state asks for, if any.
@@ -198,7 +204,8 @@ void Composite<D, Y, C>::step_inside(const EvolutionMode& mode, PointState& s) c
     const double slope = contract(yield_gradient(s, m), d);
     if (!(slope > 0.0)) return;
     const double excess = std::max(0.0, yield_function(s, m)) / slope;
-    s.elastic_strain -= (excess + 1e-12) * d;
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    s.elastic_strain -= (excess + std::max(1e-12, rounding * norm(s.elastic_strain) / norm(d))) * d;
   }
 }
 

@@ -252,19 +252,19 @@ void Composite<D, Y, C>::events(const EvolutionMode& mode, const PointState& s, 
     using Plane = EvolutionMode::Plane;
     const DecohesionPlane plane{s.normal_r, s.normal_z};
     const PlaneTraction traction_now = intact ? PlaneTraction{} : traction(plane, s.elastic_strain, m);
-    const double strength_scale = std::max(s.cohesive_strength, 1e-12 * elastic_.shear);
     if (mode.plane == Plane::held) {
       const double N = decohesion_.effective_traction(traction_now.normal, traction_now.tangential);
-      g.add(Root::decohesion, (N - decohesion_.strength(s.decohesion, s.cohesive_strength)) / strength_scale);
+      g.add(Root::decohesion,
+            (N - decohesion_.strength(s.decohesion, s.cohesive_strength)) / s.cohesive_strength);
     } else if (mode.decohering()) {
       if (mode.viscous) {
         const Softening w = softening(mode, s, m);
-        g.add(Root::stall, (w.strength - w.drive.traction) / strength_scale);
+        g.add(Root::stall, (w.strength - w.drive.traction) / s.cohesive_strength);
       } else {
         g.add(Root::stall, -r.decohesion * per_size * decohesion_.reference_opening() / s.effective_length);
         g.add(Root::snap_back, 0.5 * EvolutionRates::least_fraction - r.fraction);
       }
-      g.add(Root::pull, (mode.pulled ? -traction_now.normal : traction_now.normal) / strength_scale);
+      g.add(Root::pull, (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
       g.add(Root::separation, s.decohesion - 1.0);
     } else if (mode.plane == Plane::open) {
       g.add(Root::closure, -s.opening_n * per_size / s.effective_length);

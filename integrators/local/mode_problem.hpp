@@ -42,17 +42,18 @@ class ModeProblem {
   Dissipation dissipation(const double* y) const;
   /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are
   /// judged by the size of the whole, which their scale is: a component that happens to vanish needs no more
-  /// digits than the others. That of elastic strain is at most a tenth of its deviator at the start.
+  /// digits than the others. That of the elastic deviator is at most a tenth of its size at the start, and
+  /// that of plastic dissipation what such a stress does on the whole increment.
   void absolute_tolerances(double relative, double absolute, double* tolerances) const;
   /// Name of an unknown, for messages.
   const char* name(std::size_t unknown) const;
 
  private:
-  enum class Unknown : unsigned char {
-    elastic_rr,
-    elastic_zz,
-    elastic_tt,
-    elastic_rz,
+  enum Unknown : unsigned char {
+    mean_strain,  ///< elastic strain: trace / 3, and the deviator, whose tt follows
+    deviator_rr,
+    deviator_zz,
+    deviator_rz,
     plastic_strain,
     crack_density,
     decohesion,
@@ -61,12 +62,23 @@ class ModeProblem {
     plastic,
     damage,
     fracture,
-    fraction,
+    fraction_of_path,
   };
-  static bool is_elastic_strain(Unknown unknown) { return unknown <= Unknown::elastic_rz; }
-  void add(Unknown unknown, double scale, double start) {
-    unknowns_[size_] = unknown, scales_[size_] = scale, starts_[size_++] = start;
+  using Values = std::array<double, capacity>;  ///< by Unknown, in SI units
+
+  /// Of a state, or of its rates; energies and the fraction are 0.
+  template <class Of>
+  static Values state_values(const Of& of);
+  static Values rate_values(const EvolutionRates& r);
+  /// What y stands for; what is no unknown has the value of the start.
+  Values values(const double* y) const;
+  static bool is_deviator(Unknown u) { return u >= deviator_rr && u <= deviator_rz; }
+  /// Whether it is no part of a tensor or vector, nor an energy.
+  static bool is_alone(Unknown u) {
+    return u == plastic_strain || u == crack_density || u == decohesion || u == fraction_of_path;
   }
+  static bool is_settled(Unknown u) { return u <= opening_t && u != crack_density; }
+  void add(Unknown unknown, double scale) { unknowns_[size_] = unknown, scales_[size_++] = scale; }
 
   const Material& material_;
   const EvolutionMode& mode_;
@@ -74,9 +86,10 @@ class ModeProblem {
   const PointState& start_;
   double start_fraction_, parameter_end_;
   bool fraction_is_unknown_;
+  Values start_values_;
   std::size_t size_ = 0;
   std::array<Unknown, capacity> unknowns_{};
-  std::array<double, capacity> scales_{}, starts_{};
+  std::array<double, capacity> scales_{};
 };
 
 }  // namespace vitrum

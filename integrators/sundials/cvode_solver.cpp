@@ -8,19 +8,30 @@
 namespace vitrum::sundials {
 namespace {
 
-int right_hand_side(sunrealtype t, N_Vector y, N_Vector rates, void* system) {
-  const bool finite =
-      static_cast<OdeSystem*>(system)->rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates));
+/// What CVODE hands back to its callbacks.
+struct Callbacks {
+  OdeSystem& system;
+  bool& met_zero;
+};
+OdeSystem& system_of(void* callbacks) {
+  return static_cast<Callbacks*>(callbacks)->system;
+}
+
+int right_hand_side(sunrealtype t, N_Vector y, N_Vector rates, void* callbacks) {
+  const bool finite = system_of(callbacks).rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rates));
   return finite ? 0 : 1;
 }
 
-int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* system, N_Vector, N_Vector, N_Vector) {
-  static_cast<OdeSystem*>(system)->jacobian(t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
+int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* callbacks, N_Vector, N_Vector,
+             N_Vector) {
+  system_of(callbacks).jacobian(t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
   return 0;
 }
 
-int root_functions(sunrealtype t, N_Vector y, sunrealtype* values, void* system) {
-  static_cast<OdeSystem*>(system)->roots(t, N_VGetArrayPointer(y), values);
+int root_functions(sunrealtype t, N_Vector y, sunrealtype* values, void* callbacks) {
+  system_of(callbacks).roots(t, N_VGetArrayPointer(y), values);
+  if (std::find(values, values + CvodeSolver::roots, 0.0) != values + CvodeSolver::roots)
+    static_cast<Callbacks*>(callbacks)->met_zero = true;
   return 0;
 }
 
@@ -48,11 +59,18 @@ CvodeSolver::CvodeSolver(const Context& context, std::size_t size, CvodeMethod m
     fixed_point_.reset(allocated(SUNNonlinSol_FixedPoint(vector_.get(), 0, context.get())));
     require(CVodeSetNonlinearSolver(m, fixed_point_.get()) == 0, "nonlinear solver");
   }
-  require(CVodeRootInit(m, roots, root_functions) == CV_SUCCESS, "roots");
+  watch_roots();
+  CVodeSetNoInactiveRootWarn(m);
+}
+
+void CvodeSolver::watch_roots() {
+  void* m = memory_.get();
+  CVodeRootInit(m, 0, nullptr);
+  if (CVodeRootInit(m, roots, root_functions) != CV_SUCCESS) throw std::bad_alloc();
   std::array<int, roots> upwards{};
   upwards.fill(1);
   CVodeSetRootDirection(m, upwards.data());
-  CVodeSetNoInactiveRootWarn(m);
+  roots_met_zero_ = false;
 }
 
 auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings& settings) -> Result {
@@ -62,7 +80,11 @@ auto CvodeSolver::solve(OdeSystem& system, double* y, double end, const Settings
   const auto n = static_cast<std::size_t>(N_VGetLength(v));
   std::copy(y, y + n, data);
   Result result;
-  CVodeSetUserData(m, &system);
+  // CVODE takes a function that begins at zero, and stays there, off the watch, and ReInit does not put it
+  // back: it would miss a root in the first step.
+  if (roots_met_zero_) watch_roots();
+  Callbacks callbacks{system, roots_met_zero_};
+  CVodeSetUserData(m, &callbacks);
   result.flag = CVodeReInit(m, 0.0, v);
   if (result.failed()) return result;
   std::copy(settings.absolute, settings.absolute + n, N_VGetArrayPointer(tolerances_.get()));

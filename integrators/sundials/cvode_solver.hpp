@@ -61,6 +61,10 @@ class CvodeSolver {
   struct FreeMemory {
     void operator()(void* memory) const { CVodeFree(&memory); }
   };
+  /// All root functions, anew.
+  void watch_roots();
+
+  bool roots_met_zero_ = false;
   Owned<N_Vector, N_VDestroy> vector_, tolerances_;
   Owned<SUNMatrix, SUNMatDestroy> matrix_;
   Owned<SUNLinearSolver, SUNLinSolFree> linear_;

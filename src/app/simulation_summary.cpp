@@ -139,8 +139,8 @@ std::string Simulation::summary_text(const output::RunSummary& s) const {
       s.wall_seconds > 0.0 ? static_cast<double>(s.constitutive.evaluations) / s.wall_seconds : 0.0;
   std::string text = fmt::format(
       "{}: {} particles, {} steps to t = {:.4g} us in {:.2f} s ({:.3g} particle-steps/s, {} thread{})\n",
-      scene_.title, s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate, s.threads,
-      s.threads == 1 ? "" : "s");
+      scene::single_line(scene_.title), s.particles, s.integrator.steps, 1e6 * s.time, s.wall_seconds, rate,
+      s.threads, s.threads == 1 ? "" : "s");
   text += fmt::format(
       "energy ({}): initial {:.5g}, kinetic {:.5g}, elastic {:.5g}, plastic {:.5g}, damage {:.5g}, fracture "
       "{:.5g}, external "

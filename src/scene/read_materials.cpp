@@ -129,10 +129,12 @@ std::vector<MaterialParameters> read_materials(const TableReader& document) {
   for (auto& [position, name] : entries) {
     const std::string path = join_path("material", name);
     const toml::node& entry = *list->get(name);
-    if (has_control_characters(name))
+    if (name.empty() || has_control_characters(name))
       document.diagnostics().add(
           path, entry.source().begin, path,
-          "found control characters in the name, expected none: tables and messages have a line for each");
+          fmt::format("found {}, expected a name that is not empty, without line breaks or other control "
+                      "characters",
+                      name.empty() ? "an empty name" : "control characters in the name"));
     if (const toml::table* table = entry.as_table())
       materials.push_back(read_material({*table, path, keys::material(), document.diagnostics()}, name));
     else

@@ -10,8 +10,21 @@
 namespace vitrum::scene {
 namespace {
 
-bool is_control(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == '\x7f';
+/// A control character at the start of a UTF-8 text: its code and its bytes; none: 0 bytes. Unicode's own
+/// line ends (U+0085 of the second set of control characters, U+2028, U+2029) are among them.
+struct Control {
+  unsigned code = 0;
+  std::size_t bytes = 0;
+};
+Control control_at(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned>(static_cast<unsigned char>(text[i])) : 0U;
+  };
+  if (const unsigned first = byte(0); first < 0x20 || first == 0x7f) return {first, 1};
+  if (byte(0) == 0xc2 && byte(1) >= 0x80 && byte(1) < 0xa0) return {byte(1), 2};
+  if (byte(0) == 0xe2 && byte(1) == 0x80 && (byte(2) == 0xa8 || byte(2) == 0xa9))
+    return {0x2000 + byte(2) - 0x80, 3};
+  return {};
 }
 
 bool is_bare(char c) {
@@ -33,7 +46,9 @@ std::string number_text(double value) {
 
 std::string quoted(std::string_view text) {
   std::string result = "\"";
-  for (const char c : text) {
+  while (!text.empty()) {
+    const Control control = control_at(text);
+    const char c = text.front();
     if (c == '"' || c == '\\') {
       result += '\\';
       result += c;
@@ -41,11 +56,12 @@ std::string quoted(std::string_view text) {
       result += "\\n";
     } else if (c == '\t') {
       result += "\\t";
-    } else if (is_control(c)) {
-      result += fmt::format("\\u{:04X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    } else if (control.bytes > 0) {
+      result += fmt::format("\\u{:04X}", control.code);
     } else {
       result += c;
     }
+    text.remove_prefix(std::max<std::size_t>(control.bytes, 1));
   }
   return result + '"';
 }
@@ -63,12 +79,16 @@ std::string join_path(std::string_view path, std::size_t index) {
 }
 
 bool has_control_characters(std::string_view text) {
-  return std::ranges::any_of(text, is_control);
+  return single_line(text) != text;
 }
 
 std::string single_line(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(result, is_control, ' ');
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t bytes = control_at(text).bytes;
+    result += bytes > 0 ? ' ' : text.front();
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
   return result;
 }
 

@@ -18,7 +18,7 @@ std::string key_text(std::string_view key);
 std::string join_path(std::string_view path, std::string_view key);
 std::string join_path(std::string_view path, std::size_t index);
 
-/// Whether a text holds control characters (line breaks among them).
+/// Whether a text holds control characters (line breaks among them, Unicode's, too).
 bool has_control_characters(std::string_view text);
 
 /// `text` with every control character replaced by a space: messages are single lines.

@@ -49,6 +49,19 @@ TEST_CASE("resolved scenes read back as the same scene", "[scene]") {
       parse_scene(with(scene_text, disk, "polygon = [[0, 1], [1, 1], [0.5, 1.1], [1, 2]]"), "s.toml"));
 }
 
+TEST_CASE("no line end of any kind is left in a single line", "[scene]") {
+  const std::string text =
+      "a\nb\x7f"
+      "c\xc2\x85"
+      "d\xe2\x80\xa8"
+      "e\xe2\x80\xa9"
+      "\xc3\xa9\xe2\x80\xa6\xc2";
+  CHECK(scene::single_line(text) == "a b c d e \xc3\xa9\xe2\x80\xa6\xc2");
+  CHECK(scene::has_control_characters(text));
+  CHECK(!scene::has_control_characters("\xc3\xa9\xe2\x80\xa6\xc2"));
+  CHECK(scene::quoted(text) == "\"a\\nb\\u007Fc\\u0085d\\u2028e\\u2029\xc3\xa9\xe2\x80\xa6\xc2\"");
+}
+
 TEST_CASE("numbers are written so that they read back bit for bit, as floats", "[scene]") {
   CHECK(scene::number_text(0.2) == "0.2");
   CHECK(scene::number_text(3.0) == "3.0");
