@@ -42,7 +42,7 @@ class ModeProblem {
   Dissipation dissipation(const double* y) const;
   /// Error admitted in each unknown besides `relative` |y|. Parts of a tensor or a vector and energies are
   /// judged by the size of the whole, which their scale is: a component that happens to vanish needs no more
-  /// digits than the others. That of the elastic deviator is at most a tenth of its size at the start, and
+  /// digits than the others. That of the elastic deviator is at most 0.03 of its size at the start, and
   /// that of plastic dissipation what such a stress does on the whole increment.
   void absolute_tolerances(double relative, double absolute, double* tolerances) const;
   /// Name of an unknown, for messages.
