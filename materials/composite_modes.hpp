@@ -96,7 +96,7 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, P
   // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
   bool unloads = root == Root::unload, stalls = root == Root::stall, reached = root == Root::yield;
-  bool yields = reached;
+  bool yields = reached || s.plastic_strain == 0.0;  // is what flows from here on an event?
   for (int jumps = 0;; ++jumps) {
     using Plane = EvolutionMode::Plane;
     if ((mode.plane == Plane::held || mode.decohering()) && strength_is_spent(s, path)) {
