@@ -50,4 +50,20 @@ void Composite<D, Y, C>::settle(const EvolutionMode& mode, PointState& s, const 
   }
 }
 
+/// The path reached the yield surface by an error of the integration, or at too flat an angle for rounding to
+/// tell that it does. It begins anew a rounding inside, so that no event function starts above zero, where
+/// CVODE would never see it cross; what that takes from the stored energy is a rounding, too.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::step_inside(const EvolutionMode& mode, PointState& s) const {
+  if constexpr (has_yield) {
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const SymmetricTensor d = deviator(s.elastic_strain);
+    const double slope = contract(yield_gradient(s, m), d);
+    if (!(slope > 0.0)) return;
+    const double excess = std::max(0.0, yield_function(s, m)) / slope;
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    s.elastic_strain -= (excess + std::max(1e-12, rounding * norm(s.elastic_strain) / norm(d))) * d;
+  }
+}
+
 }  // namespace vitrum
