@@ -17,6 +17,7 @@
 #include "output/result_reader.hpp"
 #include "tests/catch.hpp"
 #include "unit/output/temporary_directory.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 using test::Failing;

@@ -7,6 +7,7 @@
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
+#include "vitrum_source_dir.hpp"
 
 namespace vitrum::benchmarks {
 

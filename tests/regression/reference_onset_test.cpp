@@ -3,6 +3,7 @@
 #include "integrators/grid/explicit.hpp"
 #include "scene/build_system.hpp"
 #include "scene/read_scene.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 

@@ -3,6 +3,7 @@
 #include "catch.hpp"
 #include "mpm/stress.hpp"
 #include "support/mpm_run.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;

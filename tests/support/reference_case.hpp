@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/mpm_run.hpp"
+#include "vitrum_source_dir.hpp"
 
 namespace vitrum::test {
 

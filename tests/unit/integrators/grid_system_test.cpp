@@ -8,6 +8,7 @@
 #include "integrators/sundials/reduced_solver.hpp"
 #include "support/mpm_run.hpp"
 #include "support/random_states.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;

@@ -7,6 +7,7 @@
 #include "scene/scene_keys.hpp"
 #include "scene/toml_text.hpp"
 #include "scene/write_scene.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;

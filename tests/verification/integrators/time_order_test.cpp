@@ -6,6 +6,7 @@
 #include "integrators/sundials/ark_solver.hpp"
 #include "support/adaptive_run.hpp"
 #include "support/mpm_measure.hpp"
+#include "vitrum_source_dir.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
