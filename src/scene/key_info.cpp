@@ -102,7 +102,7 @@ KeyInfo defaulted(KeyInfo key, double fallback) {
 
 std::string quoted_list(std::span<const std::string> texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + toml_quoted(text);
   return list;
 }
 

@@ -75,7 +75,7 @@ toml::table parse_value(const Assignment& assignment, const std::string& path) {
   Refusal refusal{path, fmt::format("found {}, expected a TOML value",
                                     assignment.value.empty() ? "nothing" : assignment.value)};
   if (looks_like_text(assignment.value))
-    refusal.fact += fmt::format("; quote a string: --set '{}={}'", path, quoted(assignment.value));
+    refusal.fact += fmt::format("; quote a string: --set '{}={}'", path, toml_quoted(assignment.value));
   if (find_deep_key(assignment.value)) throw refusal;
   try {
     toml::table parsed = toml::parse(fmt::format("value = {}", assignment.value), std::string_view{});
@@ -209,7 +209,7 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
   const std::optional<Assignment> assignment = split(text);
   if (!assignment) {
     diagnostics.add_override(number, "",
-                             fmt::format("found {}, expected KEY=VALUE with a dotted KEY", quoted(text)));
+                             fmt::format("found {}, expected KEY=VALUE with a dotted KEY", toml_quoted(text)));
     return;
   }
   if (assignment->keys.size() > most_key_parts) {

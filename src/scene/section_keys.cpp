@@ -101,10 +101,10 @@ KeyTable integrator() {
       number_key("min_step", positive, "s", "arkode-*: shortest step"),
       number_key("initial_step", positive, "s", "arkode-*: first step"),
       defaulted(choice_key("linear_solver", linear_solver_names, "arkode-implicit"),
-                quoted(standard.linear_solver)),
+                toml_quoted(standard.linear_solver)),
       defaulted(choice_key("preconditioner", preconditioner_names,
                            "arkode-implicit with gmres: a factored matrix of earlier steps, or a diagonal"),
-                quoted(standard.preconditioner)),
+                toml_quoted(standard.preconditioner)),
       defaulted(
           number_key("remap", positive, "s", "arkode-implicit: longest Lagrangian phase between remaps"),
           standard.remap),
@@ -128,7 +128,7 @@ KeyTable constitutive() {
       defaulted(number_key("atol", fraction, "1",
                            "substep, cvode: absolute tolerance, times each state's own scale"),
                 standard.atol),
-      defaulted(choice_key("solver", local_solver_names, "cvode: multistep family"), quoted(standard.solver)),
+      defaulted(choice_key("solver", local_solver_names, "cvode: multistep family"), toml_quoted(standard.solver)),
   };
   return keys;
 }

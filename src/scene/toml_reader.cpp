@@ -26,7 +26,7 @@ std::optional<double> number_of(const toml::node& node) {
 std::string found_text(const toml::node& node) {
   if (const auto* text = node.as_string()) {
     const std::string& value = text->get();
-    return value.size() <= longest_quoted_text ? quoted(value)
+    return value.size() <= longest_quoted_text ? toml_quoted(value)
                                                : fmt::format("a string of {} bytes", value.size());
   }
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());

@@ -9,7 +9,7 @@ namespace vitrum::scene {
 std::string number_text(double value);
 
 /// TOML basic string with its quotes; control characters are escaped, so the result is a single line.
-std::string quoted(std::string_view text);
+std::string toml_quoted(std::string_view text);
 
 /// A key as TOML writes it: bare where possible, else quoted.
 std::string key_text(std::string_view key);

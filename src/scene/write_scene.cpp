@@ -23,7 +23,7 @@ std::string value_text(int value) {
   return std::to_string(value);
 }
 std::string value_text(std::string_view text) {
-  return quoted(text);
+  return toml_quoted(text);
 }
 std::string value_text(std::span<const double> values) {
   std::string text;

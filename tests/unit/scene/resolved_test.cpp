@@ -60,7 +60,7 @@ TEST_CASE("no line end of any kind is left in a single line", "[scene]") {
   CHECK(scene::single_line(text) == "a b c d e \xc3\xa9\xe2\x80\xa6\xc2");
   CHECK(scene::has_control_characters(text));
   CHECK(!scene::has_control_characters("\xc3\xa9\xe2\x80\xa6\xc2"));
-  CHECK(scene::quoted(text) == "\"a\\nb\\u007Fc\\u0085d\\u2028e\\u2029\xc3\xa9\xe2\x80\xa6\xc2\"");
+  CHECK(scene::toml_quoted(text) == "\"a\\nb\\u007Fc\\u0085d\\u2028e\\u2029\xc3\xa9\xe2\x80\xa6\xc2\"");
 }
 
 TEST_CASE("numbers are written so that they read back bit for bit, as floats", "[scene]") {
