@@ -1,6 +1,7 @@
 # Every library that vitrum builds with. All are Debian packages (see ./quickstart).
 find_package(SUNDIALS REQUIRED COMPONENTS arkode cvode nvecserial sunmatrixdense sunlinsoldense
                                           sunmatrixsparse sunlinsolspgmr)
+include(SerialSundials)
 find_package(Eigen3 REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(CLI11 REQUIRED)

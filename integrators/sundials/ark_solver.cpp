@@ -5,7 +5,6 @@
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -108,29 +107,27 @@ void ArkSolver::create(const Context& context, const ButcherTable& table) {
   require(ARKStepSetTableName(m, is_explicit ? none : table.name.c_str(),
                               is_explicit ? table.name.c_str() : none) == ARK_SUCCESS,
           "Butcher table");
-  require(ARKStepSetUserData(m, this) == ARK_SUCCESS, "user data");
-  require(ARKStepWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
+  require(ARKodeSetUserData(m, this) == ARK_SUCCESS, "user data");
+  require(ARKodeWFtolerances(m, Callbacks::weights) == ARK_SUCCESS, "tolerances");
   // At a stop ARKODE 6.4 takes its solution from the interpolant; Lagrange's of degree 0 is that of the last
   // step itself, and needs neither right-hand sides nor earlier states.
-  require(ARKStepSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS &&
-              ARKStepSetInterpolantDegree(m, 0) == ARK_SUCCESS,
+  require(ARKodeSetInterpolantType(m, ARK_INTERP_LAGRANGE) == ARK_SUCCESS &&
+              ARKodeSetInterpolantDegree(m, 0) == ARK_SUCCESS,
           "interpolation");
-  ARKStepSetMaxNumSteps(m, -1);
-  ARKStepSetMaxHnilWarns(m, -1);
+  ARKodeSetMaxNumSteps(m, -1);
+  ARKodeSetMaxHnilWarns(m, -1);
   if (settings_.fixed_step) return;
-  // PI controller on the embedding's order, with ARKODE 6.4's own parameters.
-  std::array<double, 3> parameters{0.8, 0.31, 0.0};
-  ARKStepSetAdaptivityMethod(m, ARK_ADAPT_PI, SUNFALSE, SUNFALSE, parameters.data());
-  ARKStepSetErrorBias(m, settings_.bias);
-  ARKStepSetSafetyFactor(m, settings_.safety);
-  ARKStepSetMaxGrowth(m, settings_.growth);
-  ARKStepSetMaxFirstGrowth(m, settings_.growth);
-  ARKStepSetFixedStepBounds(m, 1.0, settings_.keep_up_to);
-  ARKStepSetCFLFraction(m, settings_.stable_part);
-  ARKStepSetStabilityFn(m, Callbacks::stability, this);
-  ARKStepSetMaxErrTestFails(m, 100);  // the shortest step ends them
-  ARKStepSetMinStep(m, settings_.shortest_step);
-  if (std::isfinite(settings_.longest_step)) ARKStepSetMaxStep(m, settings_.longest_step);
+  // With ARKODE's own parameters.
+  controller_ = use_pi_controller(m, context.get(), 0.8, 0.31, settings_.bias);
+  ARKodeSetSafetyFactor(m, settings_.safety);
+  ARKodeSetMaxGrowth(m, settings_.growth);
+  ARKodeSetMaxFirstGrowth(m, settings_.growth);
+  ARKodeSetFixedStepBounds(m, 1.0, settings_.keep_up_to);
+  ARKodeSetCFLFraction(m, settings_.stable_part);
+  ARKodeSetStabilityFn(m, Callbacks::stability, this);
+  ARKodeSetMaxErrTestFails(m, 100);  // the shortest step ends them
+  ARKodeSetMinStep(m, settings_.shortest_step);
+  if (std::isfinite(settings_.longest_step)) ARKodeSetMaxStep(m, settings_.longest_step);
 }
 
 void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind linear) {
@@ -141,21 +138,21 @@ void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind li
                                                  ? ReducedSolver::Kind::diagonal
                                                  : ReducedSolver::Kind::factor);
   if (direct) {
-    require(ARKStepSetLinearSolver(m, reduced_->interface(), reduced_->matrix()) == 0, "linear solver");
-    require(ARKStepSetLinSysFn(m, Callbacks::linear_system) == 0, "linear system");
+    require(ARKodeSetLinearSolver(m, reduced_->interface(), reduced_->matrix()) == 0, "linear solver");
+    require(ARKodeSetLinSysFn(m, Callbacks::linear_system) == 0, "linear system");
   } else {
     constexpr int krylov_vectors = 60;
     krylov_.reset(allocated(SUNLinSol_SPGMR(y_.get(), SUN_PREC_RIGHT, krylov_vectors, context.get())));
-    require(ARKStepSetLinearSolver(m, krylov_.get(), nullptr) == 0, "linear solver");
-    require(ARKStepSetPreconditioner(m, Callbacks::precondition_setup, Callbacks::precondition) == 0,
+    require(ARKodeSetLinearSolver(m, krylov_.get(), nullptr) == 0, "linear solver");
+    require(ARKodeSetPreconditioner(m, Callbacks::precondition_setup, Callbacks::precondition) == 0,
             "preconditioner");
   }
   // A matrix for another gamma leaves an error in what is stiff, which the norm (of nodes with next to no
   // mass, say) need not see: with ARKODE's own 0.2 a tolerance of 1e-6 gave errors of 3e-4.
-  ARKStepSetDeltaGammaMax(m, 1e-3);
-  ARKStepSetMaxNonlinIters(m, settings_.newton_iterations);
-  ARKStepSetNonlinConvCoef(m, settings_.newton_part);
-  ARKStepSetMaxConvFails(m, 100);  // the shortest step ends them
+  ARKodeSetDeltaGammaMax(m, 1e-3);
+  ARKodeSetMaxNonlinIters(m, settings_.newton_iterations);
+  ARKodeSetNonlinConvCoef(m, settings_.newton_part);
+  ARKodeSetMaxConvFails(m, 100);  // the shortest step ends them
 }
 
 void ArkSolver::start(double t, double first_step) {
@@ -183,12 +180,12 @@ bool ArkSolver::know_first_stage(N_Vector rates) {
 
 void ArkSolver::set_fixed_step(double step) {
   settings_.fixed_step = step;
-  ARKStepSetFixedStep(memory_.get(), step);
+  ARKodeSetFixedStep(memory_.get(), step);
 }
 
 void ArkSolver::set_shortest_step(double step) {
   settings_.shortest_step = step;
-  ARKStepSetMinStep(memory_.get(), step);
+  ARKodeSetMinStep(memory_.get(), step);
 }
 
 /// ARKODE begins anew at the state and time reached.
@@ -203,9 +200,9 @@ void ArkSolver::restart(double first_step) {
   first_is_known_ = last_is_known_ = false;
   next_step_ = settings_.fixed_step.value_or(first_step);
   if (settings_.fixed_step)
-    ARKStepSetFixedStep(m, *settings_.fixed_step);
+    ARKodeSetFixedStep(m, *settings_.fixed_step);
   else
-    ARKStepSetInitStep(m, first_step);
+    ARKodeSetInitStep(m, first_step);
 }
 
 auto ArkSolver::step(double stop) -> Step {
@@ -214,28 +211,28 @@ auto ArkSolver::step(double stop) -> Step {
   while (true) {
     Step result;
     sunrealtype reached = time_;
-    ARKStepSetStopTime(m, stop);
-    const int flag = ARKStepEvolve(m, stop, y_.get(), &reached, ARK_ONE_STEP);
+    ARKodeSetStopTime(m, stop);
+    const int flag = ARKodeEvolve(m, stop, y_.get(), &reached, ARK_ONE_STEP);
     sunrealtype length = 0.0;
     if (flag >= 0) {
       time_ = result.time = reached;
       first_is_known_ = false, last_is_known_ = first_same_as_last_;
-      ARKStepGetLastStep(m, &length);
+      ARKodeGetLastStep(m, &length);
       result.length = length;
       result.limit = flag == ARK_TSTOP_RETURN ? Limit::stop : planned_limit_;
       if (flag != ARK_TSTOP_RETURN) natural_step_ = length;
       long stable = 0;
-      ARKStepGetNumExpSteps(m, &stable);
+      ARKodeGetNumExpSteps(m, &stable);
       planned_limit_ = stable > stable_steps_ ? Limit::stability : Limit::accuracy;
       stable_steps_ = stable;
       sunrealtype next = 0.0;
-      ARKStepGetCurrentStep(m, &next);
+      ARKodeGetCurrentStep(m, &next);
       next_step_ = std::max<double>(next, natural_step_);
       return result;
     }
     if (flag == ARK_MEM_FAIL || (reduced_ && reduced_->out_of_memory())) throw std::bad_alloc();
     result.time = time_;
-    ARKStepGetCurrentStep(m, &length);
+    ARKodeGetCurrentStep(m, &length);
     result.length = length;
     const bool rates_failed = flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR;
     result.failure = flag == ARK_ERR_FAILURE                               ? Failure::error_test
@@ -254,13 +251,13 @@ auto ArkSolver::step(double stop) -> Step {
 }
 
 const double* ArkSolver::local_errors() {
-  ARKStepGetEstLocalErrors(memory_.get(), errors_.get());
+  ARKodeGetEstLocalErrors(memory_.get(), errors_.get());
   return N_VGetArrayPointer(errors_.get());
 }
 
 const double* ArkSolver::weights() {
   if (!weights_) weights_.reset(allocated(N_VClone(y_.get())));
-  ARKStepGetErrWeights(memory_.get(), weights_.get());
+  ARKodeGetErrWeights(memory_.get(), weights_.get());
   return N_VGetArrayPointer(weights_.get());
 }
 
@@ -274,9 +271,9 @@ auto ArkSolver::counters() const -> Counters {
   Counters c = total_;
   long n = 0;
   c.right_hand_sides = evaluations_;
-  ARKStepGetNumStepAttempts(m, &n), c.attempts += n;
-  ARKStepGetNumSteps(m, &n), c.steps += n;
-  if (reducible_) ARKStepGetNumNonlinSolvIters(m, &n), c.newton_iterations += n;
+  ARKodeGetNumStepAttempts(m, &n), c.attempts += n;
+  ARKodeGetNumSteps(m, &n), c.steps += n;
+  if (reducible_) ARKodeGetNumNonlinSolvIters(m, &n), c.newton_iterations += n;
   if (reduced_) c.factorisations = reduced_->factorisations();
   return c;
 }

@@ -86,7 +86,7 @@ class ArkSolver {
  private:
   struct Callbacks;
   struct FreeMemory {
-    void operator()(void* memory) const { ARKStepFree(&memory); }
+    void operator()(void* memory) const { ARKodeFree(&memory); }
   };
   ArkSolver(const Context& context, const ArkSettings& settings, ArkSystem& system);
   void create(const Context& context, const ButcherTable& table);
@@ -102,6 +102,7 @@ class ArkSolver {
   StateVector weights_;  // once asked for
   std::unique_ptr<ReducedSolver> reduced_;
   Owned<SUNLinearSolver, SUNLinSolFree> krylov_;
+  StepController controller_;
   std::unique_ptr<void, FreeMemory> memory_;  // after what it uses: freed before
   std::exception_ptr thrown_;
   bool first_same_as_last_ = false;

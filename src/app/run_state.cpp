@@ -71,7 +71,7 @@ void store(const RunState& state, output::Checkpoint& checkpoint) {
 
 RunState restored(const output::Checkpoint& checkpoint) {
   RunState state;
-  visit_numbers(state, [&](const char* name, auto&... values) {
+  visit_numbers(state, [&](const std::string& name, auto&... values) {
     const std::vector<double>& numbers = numbers_of(checkpoint, name, sizeof...(values));
     std::size_t k = 0;
     (assign(values, numbers[k++], name), ...);

@@ -21,7 +21,7 @@ namespace {
 
 using Vector = Owned<N_Vector, N_VDestroy>;
 
-int decay(realtype, N_Vector y, N_Vector rate, void*) {
+int decay(sunrealtype, N_Vector y, N_Vector rate, void*) {
   NV_Ith_S(rate, 0) = -2.0 * NV_Ith_S(y, 0);
   return 0;
 }
@@ -46,7 +46,7 @@ TEST_CASE("CVODE integrates a decay in a context of ours", "[integrators][sundia
   REQUIRE(CVodeSStolerances(memory, 1e-8, 1e-12) == CV_SUCCESS);
   REQUIRE(CVodeSetLinearSolver(memory, solver.get(), matrix.get()) == CV_SUCCESS);
   REQUIRE(CVodeSetStopTime(memory, 1.0) == CV_SUCCESS);
-  realtype reached = 0.0;
+  sunrealtype reached = 0.0;
   CHECK(CVode(memory, 2.0, y.get(), &reached, CV_NORMAL) == CV_TSTOP_RETURN);
   CHECK(reached == 1.0);
   CHECK(NV_Ith_S(y.get(), 0) == Approx(std::exp(-2.0)).epsilon(1e-6));
@@ -58,13 +58,14 @@ TEST_CASE("ARKODE integrates a decay in a context of ours", "[integrators][sundi
   const Context context;
   const Vector y(N_VNew_Serial(1, context.get()));
   N_VConst(1.0, y.get());
+  using namespace vitrum::sundials;  // names of ARKODE 7 under 6
   void* memory = ARKStepCreate(decay, nullptr, 0.0, y.get(), context.get());
   REQUIRE(memory != nullptr);
-  REQUIRE(ARKStepSStolerances(memory, 1e-8, 1e-12) == ARK_SUCCESS);
-  REQUIRE(ARKStepSetStopTime(memory, 1.0) == ARK_SUCCESS);
-  realtype reached = 0.0;
-  CHECK(ARKStepEvolve(memory, 2.0, y.get(), &reached, ARK_NORMAL) == ARK_TSTOP_RETURN);
+  REQUIRE(ARKodeSStolerances(memory, 1e-8, 1e-12) == ARK_SUCCESS);
+  REQUIRE(ARKodeSetStopTime(memory, 1.0) == ARK_SUCCESS);
+  sunrealtype reached = 0.0;
+  CHECK(ARKodeEvolve(memory, 2.0, y.get(), &reached, ARK_NORMAL) == ARK_TSTOP_RETURN);
   CHECK(NV_Ith_S(y.get(), 0) == Approx(std::exp(-2.0)).epsilon(1e-6));
-  ARKStepFree(&memory);
+  ARKodeFree(&memory);
   CHECK(memory == nullptr);
 }
