@@ -48,13 +48,21 @@ bool ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
+// What whoever started the program said of SIGHUP (nohup), seen before libraries that take signals over
+// (MPI's transports) are initialised.
+bool hang_up_ignored = false;
+void look_at_hang_up() {
+  hang_up_ignored = ignored(SIGHUP);
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = look_at_hang_up;
+
 }  // namespace
 
 void catch_signals() {
   // Shells ignore SIGINT for what they start in the background; who sends it there nevertheless means it.
   handle(SIGINT, remember);
   handle(SIGTERM, remember);
-  if (!ignored(SIGHUP)) handle(SIGHUP, remember);
+  handle(SIGHUP, hang_up_ignored ? SIG_IGN : remember);
 }
 
 int caught_signal() {

@@ -1,4 +1,6 @@
 """Signals beside the one SIGINT or SIGTERM of test_resume: repeated ones, SIGHUP, and signals at the start of a run."""
+import pathlib
+import re
 import signal
 import time
 import unittest
@@ -39,6 +41,26 @@ class Signals(CommandLineTest):
         ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
         self.assertEqual(self.interrupt(out, signal.SIGHUP, preexec_fn=ignore).wait(), 0)
         self.assert_same_results(out, self.whole)
+
+    @unittest.skipIf(preload is None, "VITRUM_PRELOAD is not set")
+    def test_nohup_beside_a_library_that_takes_the_signal(self):
+        out = self.folder / "out"
+        ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        self.assertEqual(self.interrupt(out, signal.SIGHUP, preexec_fn=ignore, env=preloaded(TAKES_SIGNAL=1)).wait(), 0)
+        self.assert_same_results(out, self.whole)
+
+    def test_signals_are_the_programs_own(self):
+        """Libraries that are loaded before main could take others, or take away what the shell said of SIGHUP."""
+        process = self.start("run", impact, "--out", self.folder / "out", *long)
+        self.wait_for_outputs(process, 1)
+        libraries, status = (pathlib.Path(f"/proc/{process.pid}/{name}").read_text() for name in ("maps", "status"))
+        process.kill()
+        process.stderr.read()
+        if re.search(r"/lib[at]san\.so", libraries):
+            self.skipTest("a sanitizer handles signals, too")
+        caught = int(re.search(r"^SigCgt:\s*(\w+)$", status, re.MULTILINE)[1], 16)
+        numbers = {number for number in range(1, 32) if caught >> (number - 1) & 1}
+        self.assertEqual(numbers, {signal.SIGHUP, signal.SIGINT, signal.SIGTERM})
 
     def test_in_the_background_of_a_script(self):
         """A shell ignores SIGINT for what it starts by `&`; the promise of a checkpoint holds there, too."""

@@ -1,6 +1,6 @@
 // Preloaded before the C library: lets one call that writes to a file system fail, or kills the process amid
 // it.
-//   FAULT_CALL=N      the N-th such call, from 1; standard streams do not count
+//   FAULT_CALL=N      the N-th such call of main, from 1; standard streams do not count
 //   FAULT_NAME=NAME   only calls of this name count
 //   FAULT=KILL        kill -9; a write is done by half before
 //   FAULT=STALL       the call takes for ever; standard error tells when it begins
@@ -36,6 +36,16 @@ const bool kills = fault == "KILL", stalls = fault == "STALL", lasts = *setting(
 const int reason = std::atoi(fault.c_str());
 std::atomic<long> calls = 0;
 
+// What libraries do before main is not the program's.
+std::atomic<bool> in_main = false;
+using Main = int (*)(int, char**, char**);
+Main program_main = nullptr;
+
+int observed_main(int argc, char** argv, char** environment) {
+  in_main = true;
+  return program_main(argc, argv, environment);
+}
+
 /// Names of the calls so far; leaves them in FAULT_LOG when the process ends.
 struct Log {
   std::string names;
@@ -51,7 +61,7 @@ struct Log {
 /// Counts a call; whether it is to fail, with errno set. amid: what to do before the process is killed.
 template <class Amid>
 bool fails(const char* name, bool takes_space, Amid&& amid) {
-  if (!only.empty() && only != name) return false;
+  if (!in_main || (!only.empty() && only != name)) return false;
   const long call = ++calls;
   log_.names.append(name).append("\n");
   if (chosen == 0 || call < chosen || (call > chosen && !(lasts && takes_space))) return false;
@@ -85,6 +95,13 @@ mode_t mode_argument(int flags, va_list list) {
 
 // `real` is the function that stands behind.
 #define REAL(name) static const auto real = following<decltype(&name)>(#name)
+
+extern "C" int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
+                                 void (*end)(), void* stack) {
+  REAL(__libc_start_main);
+  program_main = main;
+  return real(observed_main, argc, argv, init, fini, end, stack);
+}
 
 #define OPEN(name)                                                                                \
   extern "C" int name(const char* path, int flags, ...) {                                         \
