@@ -10,6 +10,7 @@
 #include "app/demands.hpp"
 #include "app/machine.hpp"
 #include "app/messages.hpp"
+#include "app/warnings.hpp"
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/error_scales.hpp"
 #include "output/particle_fields.hpp"
@@ -96,53 +97,6 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
 }
 
 }  // namespace
-
-std::vector<std::string> warnings(const Scene& scene, const System& system, int threads) {
-  std::vector<std::string> list;
-  if (const Work work = work_of(scene, system, threads); work.seconds > long_run)
-    list.push_back(fmt::format("time.end: {}{:.3g} steps of {} particles take about {} on {} threads",
-                               work.is_planned ? "" : "at least ", work.steps, system.particle_count(),
-                               duration_text(work.seconds), threads));
-  const GridMethod method = scene.integrator.method;
-  const CriticalStep critical = critical_step_of(scene.integrator, system);
-  const double step = planned_step(scene.integrator, critical).value_or(0.0);
-  if (method != GridMethod::arkode_implicit && step > critical.step)
-    list.push_back(
-        fmt::format("{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
-                    "m/s, fastest particle {:.4g} m/s); energy will grow",
-                    step_key(scene.integrator), step, step / critical.step, critical.step, critical.body,
-                    critical.wave_speed, critical.travel_speed));
-  if (method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
-    list.push_back(
-        "integrator.scheme: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; "
-        "\"usf\" and "
-        "\"musl\" have");
-  if (method == GridMethod::arkode_implicit && scene.shape_functions != ShapeFunctions::bspline2)
-    for (const BodyDefinition& body : scene.bodies)
-      if (body.particles_per_cell == 1 && scene.integrator.remap > 20.0 * critical.step) {
-        list.push_back(
-            fmt::format("integrator.remap: with one particle a cell (body '{}') the grid has motions that no "
-                        "particle sees and "
-                        "only a remap removes; in phases of {:g} s they make bodies too soft; use "
-                        "particles_per_cell = 4 or "
-                        "shorter phases",
-                        body.name, scene.integrator.remap));
-        break;
-      }
-  for (const MaterialParameters& m : scene.materials) {
-    if (!m.decohesion || !m.von_mises) continue;
-    // A plane on which the traction falls faster than the cell behind it can unload releases at once.
-    const Moduli moduli = elastic_moduli(m.elastic);
-    const double needed = m.von_mises->peak * scene.cell / moduli.p_wave();
-    if (m.decohesion->opening < needed && m.decohesion->viscosity == 0.0)
-      list.push_back(
-          fmt::format("material.{}.decohesion.opening: {:.3g} m is below {:.3g} m, where decohesion snaps "
-                      "back on cells of "
-                      "{:g} m: it will be instantaneous",
-                      m.name, m.decohesion->opening, needed, scene.cell));
-  }
-  return list;
-}
 
 int check_scene(const CheckOptions& options) {
   const Scene scene = read_scene(options.scene, options.overrides);

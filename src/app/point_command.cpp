@@ -61,6 +61,7 @@ std::string row(const Material& material, double time, const SymmetricTensor& e,
 
 int drive_point(const PointOptions& options) {
   const PointScene scene = read_point(options.file, options.overrides);
+  for (const std::string& w : scene.warnings) tell("warning: {}\n", w);
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);
   Csv csv(options.out);
   csv.line(header(*material));

@@ -19,7 +19,7 @@
 namespace vitrum::app {
 
 Simulation::Simulation(const Scene& scene, System system, const RunOptions& options,
-                       output::FolderLock folder)
+                       output::FolderLock folder, Warnings warned)
     : scene_(scene),
       options_(options),
       folder_(std::move(folder)),
@@ -31,7 +31,8 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       failure_(system_),
       watchdog_(scene.integrator.max_growth, *integrator_),
       schedule_(scene),
-      progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet) {
+      progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet),
+      warned_(std::move(warned)) {
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
   fields_ = output::select_fields(scene, materials);
   if (options_.no_fields) fields_.clear();

@@ -9,6 +9,7 @@
 #include "app/run_command.hpp"
 #include "app/run_state.hpp"
 #include "app/schedule.hpp"
+#include "app/warnings.hpp"
 #include "app/watchdog.hpp"
 #include "mpm/computation_error.hpp"
 #include "output/energy_csv.hpp"
@@ -23,7 +24,9 @@ namespace vitrum::app {
 class Simulation final : private StepObserver {
  public:
   /// Starts in a folder without a run, or resumes from its checkpoint.h5. Throws InputError, FileError.
-  Simulation(const Scene& scene, System system, const RunOptions& options, output::FolderLock folder);
+  /// warned: what was told before, for the summary.
+  Simulation(const Scene& scene, System system, const RunOptions& options, output::FolderLock folder,
+             Warnings warned);
 
   /// To the end, to a failure, to a signal, or until something cannot be written; writes the summary; returns
   /// the exit status.
@@ -48,7 +51,7 @@ class Simulation final : private StepObserver {
   int conclude(output::RunStatus status, const std::string& message, int exit_status);
   output::RunSummary summary(output::RunStatus status, const std::string& message) const;
   std::string summary_text(const output::RunSummary& summary) const;
-  void warn_of_energy(const output::RunSummary& summary) const;
+  Warnings closing_warnings(const output::RunSummary& summary) const;
   EnergyTotals shown_energy() const { return scaled(ledger_.totals(), whole_); }
 
   const Scene& scene_;
@@ -68,6 +71,7 @@ class Simulation final : private StepObserver {
   std::optional<output::ResultFile> result_;
   std::optional<output::EnergyCsv> energy_csv_;
   RunState state_;
+  Warnings warned_;  ///< before the run
   std::optional<std::string> failed_;
   std::optional<std::string> unwritten_;  ///< why a row of energy.csv could not be written
 };

@@ -67,7 +67,10 @@ int Simulation::finish(output::RunStatus status, std::string message, int exit_s
 
 int Simulation::conclude(output::RunStatus status, const std::string& message, int exit_status) {
   progress_.finish();
-  const output::RunSummary s = summary(status, message);
+  output::RunSummary s = summary(status, message);
+  Warnings found;
+  if (status == output::RunStatus::complete) found = closing_warnings(s);
+  s.warnings.insert(s.warnings.end(), found.begin(), found.end());
   try {
     require_folder();
     result_->close();
@@ -82,32 +85,36 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
     tell("error: {}\n", error.what());
     if (exit_status == exit_done) exit_status = exit_file;
   }
-  if (status == output::RunStatus::complete) warn_of_energy(s);
+  for (const std::string& w : found) tell("warning: {}\n", w);
   if (status == output::RunStatus::failed) tell("error: {}\n", scene::single_line(message));
   if (status == output::RunStatus::interrupted) tell("interrupted: {}\n", scene::single_line(message));
   return exit_status;
 }
 
-/// Tells of an account that does not close although the run came to its end.
-void Simulation::warn_of_energy(const output::RunSummary& s) const {
+/// What only the end of a run tells: an account that does not close.
+Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
+  Warnings list;
   constexpr double tolerated = 0.05;
   const double residual = s.energy.relative_residual();
   if (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0))
-    tell("warning: the energy account has no meaning (residual {:.3g} %): the run has blown up\n",
-         100.0 * residual);
+    list.push_back(fmt::format("the energy account has no meaning (residual {:.3g} %): the run has blown up",
+                               100.0 * residual));
   else if (!(std::abs(residual) <= tolerated))
-    tell("warning: the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}\n",
-         residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
-         s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
-             ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
-               "particles a cell, or integrator.method = \"arkode-explicit\""
-             : integrator_->advice(system_, state_.last_step));
+    list.push_back(fmt::format(
+        "the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
+        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+        s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
+            ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
+              "particles a cell, or integrator.method = \"arkode-explicit\""
+            : integrator_->advice(system_, state_.last_step)));
+  return list;
 }
 
 output::RunSummary Simulation::summary(output::RunStatus status, const std::string& message) const {
   output::RunSummary s;
   s.status = status;
   s.message = message;
+  s.warnings = warned_;
   s.time = system_.time;
   s.particles = system_.particle_count();
   s.wall_seconds = state_.wall_seconds;

@@ -114,6 +114,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 | key | meaning |
 |---|---|
 | `status`, `message` | `complete`, `failed` or `interrupted`; why |
+| `warnings` | list of all that standard error was warned of, before the run and at its end |
 | `time`, `particles`, `wall_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop; threads used |
 | `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `step_min`, `step_max` (s), `limited_by` {`stability`, `accuracy` (or `max_step`), `output`, `remap`} (steps), `error_estimate` {`total`, `position`, `velocity`, `strain`} (sums of local errors over their scales; null: no estimate), `phases`, `remap_loss` (J; arkode-implicit) |
 | `constitutive` | `method`, `evaluations` (bodies that coast take none), `cvode_solves`, `cvode_steps`, `cvode_rhs`, `increments_solved`, `solves`, `solver_steps`, `solver_rhs`, `failures`, `events` |

@@ -154,6 +154,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     provenance[std::string(entry.name)] = summary.provenance.*entry.member;
   return {{"status", status_name(summary.status)},
           {"message", summary.message.empty() ? Json(nullptr) : Json(summary.message)},
+          {"warnings", summary.warnings},
           {"time", number(summary.time)},
           {"particles", summary.particles},
           {"wall_seconds", number(summary.wall_seconds)},

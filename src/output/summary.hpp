@@ -31,8 +31,9 @@ struct BodySummary {
 /// body).
 struct RunSummary {
   RunStatus status = RunStatus::complete;
-  std::string message;  ///< why not complete; empty: null in the file
-  double time = 0.0;    ///< s, reached
+  std::string message;                ///< why not complete; empty: null in the file
+  std::vector<std::string> warnings;  ///< told before the run and at its end
+  double time = 0.0;                  ///< s, reached
   std::size_t particles = 0;
   double wall_seconds = 0.0;  ///< of the time loop alone
   int threads = 1;

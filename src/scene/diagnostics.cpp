@@ -44,28 +44,43 @@ std::string Diagnostics::place(std::string_view origin, const toml::source_posit
                      : fmt::format("{}:{}:{}", file_, where.line, where.column);
 }
 
+Diagnostics::Message Diagnostics::message(const std::string& origin, const toml::source_position& where,
+                                          std::string_view key, std::string_view fact) const {
+  const std::size_t number = override_at(origin);
+  return {number, number != 0 ? toml::source_position{} : where,
+          fmt::format("{}: {}", place(origin, where), sentence(key, fact))};
+}
+
 void Diagnostics::add(const std::string& origin, const toml::source_position& where, std::string_view key,
                       std::string_view fact) {
-  const std::size_t number = override_at(origin);
-  if (number != 0) return add_override(number, key, fact);
-  faults_.push_back(
-      {0, where, fmt::format("{}:{}:{}: {}", file_, where.line, where.column, sentence(key, fact))});
+  faults_.push_back(message(origin, where, key, fact));
 }
 
 void Diagnostics::add_override(std::size_t number, std::string_view key, std::string_view fact) {
   faults_.push_back({number, {}, fmt::format("--set {}: {}", number, sentence(key, fact))});
 }
 
+void Diagnostics::warn(const std::string& origin, const toml::source_position& where, std::string_view key,
+                       std::string_view fact) {
+  warnings_.push_back(message(origin, where, key, fact));
+}
+
 void Diagnostics::throw_if_any() const {
-  if (faults_.empty()) return;
-  std::vector<Fault> sorted = faults_;
-  std::ranges::stable_sort(sorted, {}, [](const Fault& fault) {
-    return std::tuple(fault.override_number, fault.where.line, fault.where.column);
+  if (!faults_.empty()) throw InputError(in_order(faults_));
+}
+
+std::vector<std::string> Diagnostics::warnings() const {
+  return in_order(warnings_);
+}
+
+std::vector<std::string> Diagnostics::in_order(std::vector<Message> messages) {
+  std::ranges::stable_sort(messages, {}, [](const Message& m) {
+    return std::tuple(m.override_number, m.where.line, m.where.column);
   });
-  std::vector<std::string> messages;
-  messages.reserve(sorted.size());
-  for (Fault& fault : sorted) messages.push_back(std::move(fault.text));
-  throw InputError(std::move(messages));
+  std::vector<std::string> texts;
+  texts.reserve(messages.size());
+  for (Message& m : messages) texts.push_back(std::move(m.text));
+  return texts;
 }
 
 }  // namespace vitrum::scene

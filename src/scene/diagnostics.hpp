@@ -8,8 +8,8 @@
 
 namespace vitrum::scene {
 
-/// Collects the faults of one input, so that a user sees all of them at once, and knows where each value came
-/// from.
+/// Collects the faults of one input, and what is possible but implausible in it, so that a user sees all of
+/// them at once, and knows where each value came from.
 ///
 /// A message reads `FILE:LINE:COLUMN: key 'a.b': FACT`, or `--set N: key 'a.b': FACT` for values given on the
 /// command line (N counts the --set arguments from 1).
@@ -31,23 +31,31 @@ class Diagnostics {
            std::string_view fact);
   /// Adds a fault of --set number `number` itself; `key` may be empty.
   void add_override(std::size_t number, std::string_view key, std::string_view fact);
+  /// Adds a warning of `key`, placed as a fault is: the input is read all the same.
+  void warn(const std::string& origin, const toml::source_position& where, std::string_view key,
+            std::string_view fact);
 
   /// Throws InputError with all faults in the order of the file, then of the command line; returns when there
   /// are none.
   void throw_if_any() const;
+  /// All warnings in the same order.
+  std::vector<std::string> warnings() const;
 
  private:
-  struct Fault {
+  struct Message {
     std::size_t override_number;
     toml::source_position where;
     std::string text;
   };
 
+  Message message(const std::string& origin, const toml::source_position& where, std::string_view key,
+                  std::string_view fact) const;
+  static std::vector<std::string> in_order(std::vector<Message> messages);
   std::size_t override_at(std::string_view path) const;
 
   std::string file_;
   std::map<std::string, std::size_t, std::less<>> overrides_;
-  std::vector<Fault> faults_;
+  std::vector<Message> faults_, warnings_;
 };
 
 }  // namespace vitrum::scene

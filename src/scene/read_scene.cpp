@@ -94,6 +94,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   read_bodies(document, scene);
   read_boundaries(document, scene);
   diagnostics.throw_if_any();
+  scene.warnings = diagnostics.warnings();
   note_places(table, "", diagnostics, scene.places);
   return scene;
 }
@@ -112,6 +113,7 @@ PointScene parse_point(std::string_view text, std::string_view name,
   read_state(document, point);
   read_path(document, point);
   diagnostics.throw_if_any();
+  point.warnings = diagnostics.warnings();
   return point;
 }
 

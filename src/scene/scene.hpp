@@ -108,6 +108,7 @@ struct Scene {
   std::vector<MaterialParameters> materials;  ///< in the order of the file
   std::string verbatim;                       ///< the file's text, unchanged
   std::vector<std::string> overrides;         ///< the --set arguments, in order
+  std::vector<std::string> warnings;          ///< what reading found implausible, in the order of the file
   /// Where each key stands, by dotted path: "FILE:LINE:COLUMN" or "--set N".
   std::map<std::string, std::string> places;
 
@@ -126,6 +127,7 @@ struct PointScene {
   std::vector<SymmetricTensor> strain;  ///< one per time
   double size = 0.0;                    ///< cell size, m
   int samples = 200;                    ///< rows per segment
+  std::vector<std::string> warnings;    ///< as a scene's
 };
 
 }  // namespace vitrum

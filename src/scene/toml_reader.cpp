@@ -82,6 +82,13 @@ void TableReader::report(std::string_view key, std::string_view fact) const {
     diagnostics_->add(path_, table_->source().begin, path, fact);
 }
 
+void TableReader::warn(std::string_view key, std::string_view fact) const {
+  const std::string path = join_path(path_, key);
+  const toml::node* node = table_->get(key);
+  diagnostics_->warn(node != nullptr ? path : path_, (node != nullptr ? *node : *table_).source().begin, path,
+                     fact);
+}
+
 void TableReader::report(std::string_view fact) const {
   diagnostics_->add(path_, table_->source().begin, path_, fact);
 }

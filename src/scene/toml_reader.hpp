@@ -56,6 +56,8 @@ class TableReader {
   void fail(std::string_view key, std::string_view expected) const;
   /// Reports `fact` about `key` at the place of its value, or of this table when it is absent.
   void report(std::string_view key, std::string_view fact) const;
+  /// The same for what is possible but implausible: a warning.
+  void warn(std::string_view key, std::string_view fact) const;
   /// Reports `fact` about this table itself.
   void report(std::string_view fact) const;
 

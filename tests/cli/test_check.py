@@ -50,10 +50,12 @@ class Check(CommandLineTest):
 
     def test_a_step_beyond_the_critical_one_is_warned_of(self):
         answer = self.vitrum("check", impact, *overrides(integrator__step=2e-7))
-        self.assertRegex(answer.stderr, r"warning: integrator\.step: 2e-07 s is 1\.\d+ times the critical step")
+        self.assertRegex(answer.stderr, r"warning: --set 1: key 'integrator\.step': 2e-07 s is 1\.\d+ times the critical step")
         self.assertNotIn("integrator.step", self.vitrum("check", impact).stderr)
+        facts = json.loads(self.vitrum("check", impact, "--json", *overrides(integrator__step=2e-7)).stdout)
+        self.assertEqual([f"warning: {line}" for line in facts["warnings"]], answer.stderr.splitlines())
         courant = self.vitrum("check", impact, *overrides(integrator__courant=5.0))
-        self.assertRegex(courant.stderr, r"warning: integrator\.courant: .* is 5 times the critical step")
+        self.assertRegex(courant.stderr, r"warning: --set 1: key 'integrator\.courant': .* is 5 times the critical step")
 
     def test_nothing_is_written(self):
         self.vitrum("check", impact)

@@ -68,7 +68,7 @@ class AbsurdSizes(CommandLineTest):
         self.assertRegex(self.refused("check", *overrides(integrator__method='"arkode-explicit"', space__cell=1e-4, time__end=1e4)),
                          r"key 'space\.cell': found at least \S+ steps of 20000 particles, which take about \S+ years")
         long = self.vitrum("check", impact, *overrides(integrator__step=1e-14))
-        self.assertRegex(long.stderr, r"warning: time\.end: 2e\+09 steps of 200 particles take about 1\.16 days")
+        self.assertRegex(long.stderr, r"warning: \S+impact\.toml:\d+:\d+: key 'time\.end': 2e\+09 steps of 200 particles take about 1\.16 days")
         self.assertNotIn("days", self.vitrum("check", impact).stderr)
 
     def test_disk_space(self):

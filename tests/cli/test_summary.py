@@ -2,7 +2,7 @@
 import unittest
 
 import numpy as np
-from support import CommandLineTest, overrides, plane_strain, read_csv, read_summary
+from support import CommandLineTest, impact, overrides, plane_strain, read_csv, read_summary
 
 number, integer, text, boolean, listing, anything = (float, int), int, str, bool, list, object
 nothing = type(None)
@@ -16,7 +16,7 @@ first = {"time": number, "r": number, "z": number, "body": text}
 body = {"particles": integer, "mass": number, "momentum": listing, "centre": listing, "kinetic": number, "localised": integer,
         "separated": integer}
 interface = {
-    "status": text, "message": or_null(str), "time": number, "particles": integer, "wall_seconds": number, "threads": integer,
+    "status": text, "message": or_null(str), "warnings": listing, "time": number, "particles": integer, "wall_seconds": number, "threads": integer,
     "integrator": {"method": text, "steps": integer, "rejected": integer, "rhs_evaluations": integer,
                    "newton_iterations": integer, "factorisations": integer, "step_min": number, "step_max": number,
                    "limited_by": {"stability": integer, "accuracy": integer, "output": integer}},
@@ -80,6 +80,14 @@ class Summary(CommandLineTest):
         self.assertGreater(limited["stability"], limited["output"])
         self.assertEqual(sum(limited.values()), integrator["steps"])
         self.assertLess(integrator["step_min"], integrator["step_max"])
+
+    def test_warnings_are_those_told(self):
+        for quiet in ((), ("--quiet",)):
+            done = self.vitrum("run", impact, "--out", self.folder / "out", "--force", *quiet,
+                               *overrides(integrator__scheme='"usl"', time__end=1e-7))
+            told = [line.removeprefix("warning: ") for line in done.stderr.splitlines() if line.startswith("warning: ")]
+            self.assertEqual(read_summary(self.folder / "out")["warnings"], told)
+            self.assertRegex(told[0], r"^--set 1: key 'integrator\.scheme': ")
 
     def test_overrides_reach_the_run(self):
         summary = read_summary(self.run_scene("out", *overrides(body__1__velocity__1=-100.0, time__end=1e-6)))

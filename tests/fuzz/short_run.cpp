@@ -5,8 +5,8 @@
 
 #include "analysis/energy_ledger.hpp"
 #include "analysis/failure.hpp"
-#include "app/check_command.hpp"
 #include "app/demands.hpp"
+#include "app/warnings.hpp"
 #include "app/watchdog.hpp"
 #include "mpm/stress.hpp"
 #include "output/particle_fields.hpp"

@@ -1,0 +1,79 @@
+#include "app/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/demands.hpp"
+
+namespace vitrum::app {
+namespace {
+
+void warn_of_duration(const Scene& scene, const System& system, int threads, Warnings& list) {
+  const Work work = work_of(scene, system, threads);
+  if (work.seconds > long_run)
+    list.push_back(fmt::format("{}: {}{:.3g} steps of {} particles take about {} on {} threads",
+                               scene.at("time.end"), work.is_planned ? "" : "at least ", work.steps,
+                               system.particle_count(), duration_text(work.seconds), threads));
+}
+
+void warn_of_step(const Scene& scene, const CriticalStep& critical, Warnings& list) {
+  const double step = planned_step(scene.integrator, critical).value_or(0.0);
+  if (scene.integrator.method != GridMethod::arkode_implicit && step > critical.step)
+    list.push_back(
+        fmt::format("{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
+                    "m/s, fastest particle {:.4g} m/s); energy will grow",
+                    scene.at(step_key(scene.integrator)), step, step / critical.step, critical.step,
+                    critical.body, critical.wave_speed, critical.travel_speed));
+}
+
+void warn_of_scheme(const Scene& scene, Warnings& list) {
+  if (scene.integrator.method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
+    list.push_back(fmt::format(
+        "{}: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; \"usf\" and "
+        "\"musl\" have",
+        scene.at("integrator.scheme")));
+}
+
+void warn_of_long_phases(const Scene& scene, const CriticalStep& critical, Warnings& list) {
+  if (scene.integrator.method != GridMethod::arkode_implicit ||
+      scene.shape_functions == ShapeFunctions::bspline2 || !(scene.integrator.remap > 20.0 * critical.step))
+    return;
+  const auto coarse = std::ranges::find(scene.bodies, 1, &BodyDefinition::particles_per_cell);
+  if (coarse != scene.bodies.end())
+    list.push_back(
+        fmt::format("{}: with one particle a cell (body '{}') the grid has motions that no particle sees and "
+                    "only a remap "
+                    "removes; in phases of {:g} s they make bodies too soft; use particles_per_cell = 4 or "
+                    "shorter phases",
+                    scene.at("integrator.remap"), coarse->name, scene.integrator.remap));
+}
+
+/// A plane on which the traction falls faster than the cell behind it can unload releases at once.
+void warn_of_snap_back(const Scene& scene, Warnings& list) {
+  for (const MaterialParameters& m : scene.materials) {
+    if (!m.decohesion || !m.von_mises) continue;
+    const double needed = m.von_mises->peak * scene.cell / elastic_moduli(m.elastic).p_wave();
+    if (m.decohesion->opening < needed && m.decohesion->viscosity == 0.0)
+      list.push_back(fmt::format(
+          "{}: {:.3g} m is below {:.3g} m, where decohesion snaps back on cells of {:g} m: it will be "
+          "instantaneous",
+          scene.at(fmt::format("material.{}.decohesion.opening", m.name)), m.decohesion->opening, needed,
+          scene.cell));
+  }
+}
+
+}  // namespace
+
+Warnings warnings(const Scene& scene, const System& system, int threads) {
+  Warnings list = scene.warnings;
+  const CriticalStep critical = critical_step_of(scene.integrator, system);
+  warn_of_duration(scene, system, threads, list);
+  warn_of_step(scene, critical, list);
+  warn_of_scheme(scene, list);
+  warn_of_long_phases(scene, critical, list);
+  warn_of_snap_back(scene, list);
+  return list;
+}
+
+}  // namespace vitrum::app
