@@ -136,15 +136,22 @@ class Composite final : public Material {
   // composite_localised.hpp
   void advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,
                          PointReport& report) const;
+  /// What a plane does at one instant when it loses its equilibrium.
+  enum class Jump { none, snap_back, separation };
   double advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration, bool at_once,
-                          double& separated_at, Dissipation& dissipation) const;
+                          Jump& jump, Dissipation& dissipation) const;
+  EvolutionMode localised_mode(const PointState& s) const;
+  double outside_under_pressure(const PointState& s) const;
+  void give_way_at_once(PointState& s, Jump jump, bool flows, double fraction, PointReport& report) const;
   double advance_separated(PointState& s, const SymmetricTensor& strain) const;
   void snap_back(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void open_plane(PointState& s, const DecohesionLaw::Advance& next) const;
   void separate(PointState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void relax_crack(PointState& s) const;
+  void flow_behind_crack(PointState& s, double outside_before, double fraction, PointReport& report) const;
   void flow_behind_crack(PointState& s, double outside_before, Dissipation& dissipation) const;
-  double flow_along_deviator(PointState& s, double excess) const;
+  bool fell_behind_crack(const PointState& s, double flowed_before) const;
+  SymmetricTensor flow_along_deviator(PointState& s, double excess) const;
   PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain,
                          const Moduli& moduli) const {
     const SymmetricTensor stress = moduli.stress(strain);
@@ -199,7 +206,8 @@ class Composite final : public Material {
   // composite_jumps.hpp
   bool fall_onto_surface(const EvolutionMode& mode, PointState& s, Dissipation& dissipation) const;
   bool is_overloaded(const EvolutionMode& mode, const PointState& s) const;
-  void meet_surfaces(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
+  void meet_surfaces(EvolutionMode& mode, PointState& s, double fraction, PointReport& report,
+                     bool is_yield = true) const;
   void land(EvolutionMode& mode, PointState& s, double fraction, PointReport& report) const;
   bool falls_through(const EvolutionMode& mode, const PointState& s) const;
   void fall_at_constant_strain(EvolutionMode& mode, PointState& s, double fraction,

@@ -36,16 +36,14 @@ bool Composite<D, Y, C>::is_overloaded(const EvolutionMode& mode, const PointSta
 }
 
 /// Stress outside the yield surface falls onto it at constant strain. That may load a plane with more than it
-/// bears, which then opens at once, and leaves stress outside again.
+/// bears, which then opens at once, and leaves stress outside again. is_yield: the first fall is an event.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::meet_surfaces(EvolutionMode& mode, PointState& s, double fraction,
-                                       PointReport& report) const {
+                                       PointReport& report, bool is_yield) const {
   if constexpr (has_yield) {
     constexpr int most_turns = 64;
-    bool fell = false;
     for (int turn = 0; turn < most_turns && fall_onto_surface(mode, s, report.dissipation); ++turn) {
-      if (!fell) report.record(EventKind::yield, fraction);
-      fell = true;
+      if (turn == 0 && is_yield) report.record(EventKind::yield, fraction);
       if constexpr (C) {
         if (!is_overloaded(mode, s)) break;
         snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);

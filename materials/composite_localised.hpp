@@ -8,42 +8,76 @@ namespace vitrum {
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::advance_localised(PointState& s, const SymmetricTensor& strain, double duration,
                                            double done, PointReport& report) const {
-  // Tension may have carried the point beyond the strength that it has under pressure.
-  const double outside_before =
-      has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
   double fraction = 0.0;
-  const auto record = [&](EventKind kind, double f) { report.record(kind, done + f * (1.0 - done)); };
-  // Each pass takes the increment to its next event: onset of softening, a substep of it, separation, a
-  // change of side.
+  const auto at = [done](double f) { return done + f * (1.0 - done); };
+  double outside = outside_under_pressure(s);
+  // Each pass takes the increment to its next event: onset of softening, a substep of it, a jump of the
+  // plane, a change of side.
   for (int pass = 0; pass < 256 && fraction < 1.0; ++pass) {
     const double left = 1.0 - fraction;
     if (is_separated(s)) {
       const double closed_at = advance_separated(s, left * strain);
-      if (closed_at >= 0.0) record(EventKind::closure, fraction + left * closed_at);
+      if (closed_at >= 0.0) report.record(EventKind::closure, at(fraction + left * closed_at));
       fraction = 1.0;
     } else {
-      double separated_at = -1.0;
+      Jump jump = Jump::none;
       const double taken =
-          advance_cohesive(s, left * strain, left * duration, pass >= 128, separated_at, report.dissipation);
-      if (separated_at >= 0.0) record(EventKind::separation, fraction + left * separated_at);
+          advance_cohesive(s, left * strain, left * duration, pass >= 128, jump, report.dissipation);
       fraction = taken >= 1.0 ? 1.0 : fraction + left * taken;
+      if (jump == Jump::none) continue;
+      // What the strain has done so far flows first: all that the jump itself leaves outside the yield
+      // surface falls onto it at this instant.
+      flow_behind_crack(s, outside, at(fraction), report);
+      give_way_at_once(s, jump, false, at(fraction), report);
+      outside = outside_under_pressure(s);
     }
   }
   if (fraction < 1.0) s.elastic_strain += (1.0 - fraction) * strain;
-  if constexpr (has_yield) {
-    const double before = s.plastic_strain;
-    flow_behind_crack(s, outside_before, report.dissipation);
-    if (before == 0.0 && s.plastic_strain > 0.0) record(EventKind::yield, 1.0);
-  }
+  const double flowed = s.plastic_strain;
+  flow_behind_crack(s, outside, at(1.0), report);
+  // Flow that loads a softening plane with more than it bears opens it at once, and so on, until the stress
+  // is on both surfaces.
+  if (s.plastic_strain > flowed && is_overloaded(localised_mode(s), s))
+    give_way_at_once(s, Jump::snap_back, true, at(1.0), report);
 }
 
-/// One pass of the softening plane (0 <= lambda < 1); returns the fraction of `strain` it consumed. at_once:
-/// takes what is left in one implicit step with the moduli of the start (for the rare path that chatters
-/// about zero mean strain).
+/// The mode of a localised point that is at rest.
+template <bool D, Yielding Y, bool C>
+EvolutionMode Composite<D, Y, C>::localised_mode(const PointState& s) const {
+  using Plane = EvolutionMode::Plane;
+  EvolutionMode mode;
+  mode.tension = trace(s.elastic_strain) > 0.0;
+  mode.viscous = decohesion_.viscosity() > 0.0;
+  mode.plane = !is_separated(s) ? Plane::held : s.opening_n > 0.0 ? Plane::open : Plane::closed;
+  return mode;
+}
+
+/// How far outside the yield surface the stress lies, Pa. Tension may have carried the point beyond the
+/// strength that it has under pressure.
+template <bool D, Yielding Y, bool C>
+double Composite<D, Y, C>::outside_under_pressure(const PointState& s) const {
+  return has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
+}
+
+/// The jump of a plane that lost its equilibrium, and the falls that follow from it at the same instant.
+/// flows: they go on with a flow that is known.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::give_way_at_once(PointState& s, Jump jump, bool flows, double fraction,
+                                          PointReport& report) const {
+  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  jump == Jump::snap_back ? snap_back(s, moduli, report.dissipation)
+                          : separate(s, moduli, report.dissipation);
+  EvolutionMode mode = localised_mode(s);
+  if (is_separated(s)) report.record(EventKind::separation, fraction);
+  meet_surfaces(mode, s, fraction, report, !flows);
+}
+
+/// One pass of the softening plane (0 <= lambda < 1); returns the fraction of `strain` it consumed. `jump`:
+/// what the plane does at the end of it. at_once: takes what is left in one implicit step with the moduli of
+/// the start (for the rare path that chatters about zero mean strain).
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor& strain, double duration,
-                                            bool at_once, double& separated_at,
-                                            Dissipation& dissipation) const {
+                                            bool at_once, Jump& jump, Dissipation& dissipation) const {
   const double start_trace = trace(s.elastic_strain), change = trace(strain);
   // The moduli are those of one side of zero mean strain: the pass ends where the side changes.
   bool tension = start_trace > 0.0 || (start_trace == 0.0 && change > 0.0);
@@ -105,8 +139,7 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   };
 
   if (denominator <= 0.0 && !viscous) {
-    snap_back(s, moduli, dissipation);
-    if (is_separated(s)) separated_at = 0.0;
+    jump = Jump::snap_back;
     return 0.0;
   }
   const DecohesionLaw::Advance next = advanced(step);
@@ -116,7 +149,7 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   }
   // The last equilibrium before separation: lambda near 1, or less where the softening turns into a snap-back
   // on its way.
-  separated_at = first_reached(0.0, step, [&](double f) { return advanced(f).separates; });
+  const double separated_at = first_reached(0.0, step, [&](double f) { return advanced(f).separates; });
   const double last = separated_at - 1e-12 * step;
   const DecohesionLaw::Advance before = advanced(std::max(last, 0.0));
   if (last > 0.0 && !before.separates) {
@@ -125,7 +158,7 @@ double Composite<D, Y, C>::advance_cohesive(PointState& s, const SymmetricTensor
   } else {
     s.elastic_strain += separated_at * strain;
   }
-  separate(s, moduli, dissipation);
+  jump = Jump::separation;
   return separated_at;
 }
 
@@ -218,15 +251,27 @@ double Composite<D, Y, C>::advance_separated(PointState& s, const SymmetricTenso
   return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
 }
 
+/// Plastic flow of a localised point, and what it does to its faces, told at `fraction` of the increment.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before, double fraction,
+                                           PointReport& report) const {
+  if constexpr (has_yield) {
+    const double flowed = s.plastic_strain, gap = s.opening_n;
+    flow_behind_crack(s, outside_before, report.dissipation);
+    if (flowed == 0.0 && s.plastic_strain > 0.0) report.record(EventKind::yield, fraction);
+    if (is_separated(s) && gap > 0.0 && s.opening_n == 0.0) report.record(EventKind::closure, fraction);
+  }
+}
+
 /// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the
-/// material flows.
+/// material flows. outside_before: what of the violation (Pa) falls onto the surface at once and loses all
+/// its energy; the rest flows along it.
 template <bool D, Yielding Y, bool C>
 void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
                                            Dissipation& dissipation) const {
   const auto excess = [&](const PointState& c) {  // > 0 outside the yield surface, Pa
     const bool tension = trace(c.elastic_strain) > 0.0;
-    if (Y == Yielding::drucker_prager && tension) return -1.0;
-    return yield_function(c, secant(tension, c.crack_density));
+    return surface_acts(tension) ? yield_function(c, secant(tension, c.crack_density)) : 0.0;
   };
   const double tolerance = 1e-9 * elastic_.shear * norm(deviator(s.elastic_strain));
   const double violated = excess(s);
@@ -236,45 +281,53 @@ void Composite<D, Y, C>::flow_behind_crack(PointState& s, double outside_before,
     return;
   }
 
-  // Flow and traction-free faces are met in turn. Each turn brings the excess down by a nearly constant
-  // factor, which the next one anticipates: it flows as much more as relaxing the faces gave back the last
-  // time.
-  const double stored = stored_energy(s);
-  double factor = 1.0, last = violated, along_surface = 0.0;
-  for (int turn = 0; turn < 50 && last > tolerance; ++turn) {
-    along_surface += flow_along_deviator(s, factor * last);
+  // Flow and traction-free faces are met in turn. What a unit of flow took off the excess the last time, the
+  // faces' answer included, tells how much flow the next turn needs, forth or back.
+  const double stored = stored_energy(s), flowed_before = s.plastic_strain;
+  double value = violated, resistance = 1.0;  // relative to that without faces
+  SymmetricTensor flowed{};                   // plastic strain
+  for (int turn = 0; turn < 50 && std::abs(value) > tolerance; ++turn) {
+    const double wanted = value / resistance;
+    flowed += flow_along_deviator(s, wanted);
     relax_crack(s);
-    const double value = excess(s);
-    if (value <= 0.0) break;
-    factor = std::clamp(factor / (1.0 - value / last), 1.0, 4.0);
-    last = value;
+    const double next = excess(s);
+    resistance = std::clamp((value - next) / wanted, 0.25, 4.0);
+    value = next;
   }
-  // What was outside before the increment falls onto the surface at once and loses all its energy; the rest
-  // flows along it.
   const double lost = std::max(0.0, stored - stored_energy(s)),
-               sudden_share = std::min(1.0, outside_before / violated);
-  dissipation.plastic += sudden_share * lost + (1.0 - sudden_share) * std::min(lost, along_surface);
+               sudden_share =
+                   fell_behind_crack(s, flowed_before) ? 1.0 : std::min(1.0, outside_before / violated);
+  double along_surface = contract(secant_moduli(s).stress(s.elastic_strain), flowed);
+  if constexpr (Y == Yielding::von_mises) along_surface = von_mises_.work(flowed_before, s.plastic_strain);
+  dissipation.plastic += sudden_share * lost + (1.0 - sudden_share) * std::clamp(along_surface, 0.0, lost);
 }
 
-/// Plastic flow that lowers the stress measure by `excess` (Pa) when no face moves; at most all of the
-/// deviator. Returns its work at the stress after it, J/m^3.
+/// Whether flow from `flowed_before` softened faster than elasticity unloads behind the faces that give way,
+/// and fell at constant strain.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess) const {
-  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
-  const SymmetricTensor d = deviator(s.elastic_strain);
-  const double size = norm(d);
-  if (!(size > 0.0)) return 0.0;
-  SymmetricTensor direction = (1.0 / size) * d;  // per unit of |d eps_p|
-  double amount = excess / (2.0 * moduli.shear);
-  if constexpr (Y == Yielding::drucker_prager) {  // with the volume change of dilatant flow
-    const double psi = drucker_prager_.dilatancy(), unit = std::sqrt(1.5 + psi * psi / 3.0);
-    direction = (std::sqrt(1.5) / unit) * direction + (psi / (3.0 * unit)) * identity();
-    amount = excess / (3.0 * moduli.shear) * unit;
+bool Composite<D, Y, C>::fell_behind_crack(const PointState& s, double flowed_before) const {
+  if constexpr (Y == Yielding::von_mises) {
+    const double softest = std::max(flowed_before, von_mises_.peak_strain());
+    EvolutionMode mode = localised_mode(s);
+    mode.hardening_modulus = von_mises_.modulus(softest);
+    return s.plastic_strain > softest && mode.hardening_modulus < 0.0 && falls_through(mode, s);
+  } else {
+    return false;
   }
-  amount = std::min(amount, size);
+}
+
+/// Plastic flow that lowers the stress measure by `excess` (Pa) when no face moves and the strength stays; at
+/// most half of the deviator, which is to keep its direction. Returns the plastic strain.
+template <bool D, Yielding Y, bool C>
+SymmetricTensor Composite<D, Y, C>::flow_along_deviator(PointState& s, double excess) const {
+  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  const SymmetricTensor direction = flow_direction(s);  // per unit of |d eps_p|
+  const double resistance = contract(yield_gradient(s, moduli), direction);
+  if (!(resistance > 0.0)) return {};
+  const double amount = std::min(excess / resistance, 0.5 * norm(deviator(s.elastic_strain)));
   s.elastic_strain -= amount * direction;
   s.plastic_strain += amount;
-  return amount * std::max(0.0, contract(moduli.stress(s.elastic_strain), direction));
+  return amount * direction;
 }
 
 }  // namespace vitrum

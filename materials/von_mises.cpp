@@ -35,6 +35,18 @@ PlasticReturn VonMisesLaw::flow(double trial, double shear, double& plastic_stra
   return result;
 }
 
+double VonMisesLaw::work(double from, double to) const {
+  // Linear on each branch: the mean of its ends.
+  double sum = 0.0;
+  const auto add = [&](double begin, double end) {
+    begin = std::max(begin, from), end = std::min(end, to);
+    if (end > begin) sum += (end - begin) * radius(0.5 * (begin + end));
+  };
+  add(0.0, peak_strain_), add(peak_strain_, floor_strain_);
+  add(floor_strain_, std::numeric_limits<double>::infinity());
+  return sum;
+}
+
 CriticalPlane von_mises_critical_plane(const SymmetricTensor& s, const Moduli& moduli, double tangent_drop,
                                        bool all) {
   const double G = moduli.shear, M = moduli.p_wave();

@@ -70,6 +70,9 @@ class VonMisesLaw {
   /// inside.
   PlasticReturn flow(double trial, double shear, double& plastic_strain) const;
 
+  /// Work of flow on the yield surface from one plastic strain to another, the integral of the radius, J/m^3.
+  double work(double from, double to) const;
+
   /// H |s|^2 of eq. 24, Pa.
   double tangent_drop(double shear, double plastic_strain) const {
     return tangent_drop_of(shear, modulus(plastic_strain));
