@@ -19,8 +19,7 @@ void ArkodeImplicit::prepare(System& system) {
   tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
 }
 
-/// Phases up to a target are of equal length, and short enough for the fastest particle.
-double ArkodeImplicit::phase_end(const System& system, double target) const {
+double longest_phase(const System& system, const RemapSettings& remap) {
   double fastest = 0.0;
   for (const Body& body : system.bodies)
     for (std::size_t i = 0; i < body.particles.size; ++i)
@@ -29,9 +28,13 @@ double ArkodeImplicit::phase_end(const System& system, double target) const {
   for (const mpm::Boundary& wall : system.grid.boundaries())
     for (std::size_t c = 0; c < 2; ++c)
       if (wall.fixed[c]) fastest = std::max(fastest, std::abs(wall.velocity[c]));
+  return fastest > 0.0 ? std::min(remap.duration, remap.travel * system.cell / fastest) : remap.duration;
+}
+
+/// Phases up to a target are of equal length, and short enough for the fastest particle.
+double ArkodeImplicit::phase_end(const System& system, double target) const {
   require_above_rounding(remap_.duration, "remap", system.time, target);
-  double length = remap_.duration;
-  if (fastest > 0.0) length = std::min(length, remap_.travel * system.cell / fastest);
+  const double length = longest_phase(system, remap_);
   const double left = target - system.time;
   const double phases = std::max(1.0, std::ceil(left / length - 1e-6));
   return phases <= 1.0 ? target : system.time + left / phases;
@@ -168,11 +171,10 @@ std::string ArkodeImplicit::describe_failure(const ArkSolver::Step& step) const 
       "{}; {}; {}", failed_step(step, settings_.fixed_step, settings_.shortest_step, critical_step_), cause,
       settings_.fixed_step
           ? "try a smaller integrator.fixed_step"
-          : fmt::format(
-                "try a larger integrator.rtol (now {:g}){}, a smaller integrator.remap (now {:g} s), or "
-                "integrator.method = \"arkode-explicit\"",
-                settings_.tolerance, settings_.shortest_step ? ", a smaller integrator.min_step" : "",
-                remap_.duration));
+          : fmt::format("try a larger integrator.rtol (now {:g}){}, a smaller integrator.remap (now {}), or "
+                        "integrator.method = \"arkode-explicit\"",
+                        settings_.tolerance, settings_.shortest_step ? ", a smaller integrator.min_step" : "",
+                        std::isfinite(remap_.duration) ? fmt::format("{:g} s", remap_.duration) : "none"));
 }
 
 }  // namespace vitrum

@@ -42,7 +42,7 @@ double size_on_disk(const std::filesystem::path& file) {
 
 std::string step_key(const IntegratorDefinition& i) {
   if (i.fixed_step && i.method != GridMethod::explicit_steps) return "integrator.fixed_step";
-  if (i.method == GridMethod::arkode_implicit) return "integrator.remap";
+  if (i.method == GridMethod::arkode_implicit) return i.remap ? "integrator.remap" : "time.end";
   if (i.method == GridMethod::explicit_steps) return i.step ? "integrator.step" : "integrator.courant";
   return "space.cell";
 }
@@ -96,8 +96,10 @@ Work work_of(const Scene& scene, const System& system, int threads) {
   const IntegratorDefinition& integrator = scene.integrator;
   const CriticalStep critical = critical_step_of(integrator, system);
   const std::optional<double> step = planned_step(integrator, critical);
-  const double longest =
-      step.value_or(integrator.method == GridMethod::arkode_implicit ? integrator.remap : critical.step);
+  const double between_outputs = scene.output.every.value_or(scene.end - scene.start);
+  const double longest = step.value_or(integrator.method == GridMethod::arkode_implicit
+                                           ? integrator.remap.value_or(between_outputs)
+                                           : critical.step);
   Work work;
   work.steps = std::max(1.0, std::ceil((scene.end - scene.start) / longest - 1e-6));
   work.is_planned = step.has_value();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/demands.hpp"
+#include "scene/grid_method.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -35,10 +36,14 @@ void warn_of_scheme(const Scene& scene, Warnings& list) {
         scene.at("integrator.scheme")));
 }
 
-void warn_of_long_phases(const Scene& scene, const CriticalStep& critical, Warnings& list) {
+void warn_of_long_phases(const Scene& scene, const System& system, const CriticalStep& critical,
+                         Warnings& list) {
   if (scene.integrator.method != GridMethod::arkode_implicit ||
-      scene.shape_functions == ShapeFunctions::bspline2 || !(scene.integrator.remap > 20.0 * critical.step))
+      scene.shape_functions == ShapeFunctions::bspline2)
     return;
+  const double phase =
+      std::min(longest_phase(system, remap_settings(scene.integrator)), scene.end - scene.start);
+  if (!(phase > 20.0 * critical.step)) return;
   const auto coarse = std::ranges::find(scene.bodies, 1, &BodyDefinition::particles_per_cell);
   if (coarse != scene.bodies.end())
     list.push_back(
@@ -46,7 +51,7 @@ void warn_of_long_phases(const Scene& scene, const CriticalStep& critical, Warni
                     "only a remap "
                     "removes; in phases of {:g} s they make bodies too soft; use particles_per_cell = 4 or "
                     "shorter phases",
-                    scene.at("integrator.remap"), coarse->name, scene.integrator.remap));
+                    scene.at("integrator.remap"), coarse->name, phase));
 }
 
 /// A plane on which the traction falls faster than the cell behind it can unload releases at once.
@@ -71,7 +76,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_duration(scene, system, threads, list);
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);
-  warn_of_long_phases(scene, critical, list);
+  warn_of_long_phases(scene, system, critical, list);
   warn_of_snap_back(scene, list);
   return list;
 }

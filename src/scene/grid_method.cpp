@@ -1,7 +1,8 @@
 #include "scene/grid_method.hpp"
 
+#include <limits>
+
 #include "integrators/grid/arkode_explicit.hpp"
-#include "integrators/grid/arkode_implicit.hpp"
 #include "integrators/grid/explicit.hpp"
 #include "scene/input_error.hpp"
 
@@ -47,6 +48,10 @@ sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator) {
   return *table;
 }
 
+RemapSettings remap_settings(const IntegratorDefinition& i) {
+  return {i.remap.value_or(std::numeric_limits<double>::infinity()), i.remap_travel, i.remap_strain};
+}
+
 std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator,
                                                      const System& initial) {
   switch (integrator.method) {
@@ -56,10 +61,8 @@ std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition&
     case GridMethod::arkode_explicit:
       return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator, initial));
     case GridMethod::arkode_implicit:
-      return std::make_unique<ArkodeImplicit>(
-          adaptive_settings(integrator, initial),
-          RemapSettings{integrator.remap, integrator.remap_travel, integrator.remap_strain},
-          linear_solver(integrator));
+      return std::make_unique<ArkodeImplicit>(adaptive_settings(integrator, initial),
+                                              remap_settings(integrator), linear_solver(integrator));
   }
   return nullptr;
 }

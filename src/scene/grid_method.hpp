@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "integrators/grid/arkode_implicit.hpp"
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/butcher_table.hpp"
@@ -15,6 +16,9 @@ std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition&
 
 /// The integrator's name for a scheme of the scene.
 StepScheme step_scheme(ExplicitScheme scheme);
+
+/// When a Lagrangian phase of the integrator ends.
+RemapSettings remap_settings(const IntegratorDefinition& integrator);
 
 /// The kind of table that an arkode method takes.
 sundials::TableKind table_kind(GridMethod method);

@@ -80,8 +80,7 @@ void read_integrator(const TableReader& document, Scene& scene) {
   table->read("remap", integrator.remap);
   require_countable(*table, "fixed_step", integrator.fixed_step, scene);
   require_countable(*table, "max_step", integrator.max_step, scene);
-  if (table->has("remap") || integrator.method == GridMethod::arkode_implicit)
-    require_countable(*table, "remap", integrator.remap, scene);
+  require_countable(*table, "remap", integrator.remap, scene);
   table->read("remap_travel", integrator.remap_travel);
   table->read("remap_strain", integrator.remap_strain);
   check_butcher_table(*table, integrator);

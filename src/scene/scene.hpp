@@ -74,7 +74,7 @@ struct IntegratorDefinition {
   // arkode-implicit
   std::string linear_solver = "klu";
   std::string preconditioner = "factor";
-  double remap = 1.0e-6;
+  std::optional<double> remap;  ///< s; none: phases end by travel and strain alone
   double remap_travel = 0.25;  ///< cells
   double remap_strain = 0.02;
 };

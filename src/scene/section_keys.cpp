@@ -105,9 +105,9 @@ KeyTable integrator() {
       defaulted(choice_key("preconditioner", preconditioner_names,
                            "arkode-implicit with gmres: a factored matrix of earlier steps, or a diagonal"),
                 toml_quoted(standard.preconditioner)),
-      defaulted(
-          number_key("remap", positive, "s", "arkode-implicit: longest Lagrangian phase between remaps"),
-          standard.remap),
+      number_key("remap", positive, "s",
+                 "arkode-implicit: longest Lagrangian phase between remaps; absent: phases end by "
+                 "`remap_travel` and `remap_strain` alone"),
       defaulted(number_key("remap_travel", positive, "cells",
                            "arkode-implicit: a phase ends when a node that matters has moved so far"),
                 standard.remap_travel),

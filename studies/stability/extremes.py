@@ -7,7 +7,7 @@ from stability.limits import time_unit
 _reference, _row = "paper/reference.toml", "stability/row.toml"
 _resolved = {"integrator.scheme": "musl", "integrator.step": 5e-8, "time.end": 2e-5}
 _adaptive = {"integrator.method": "arkode-explicit", "time.end": 2e-5}
-_implicit = {"integrator.method": "arkode-implicit", "time.end": 5e-6, "integrator.rtol": 1e-2}
+_implicit = {"integrator.method": "arkode-implicit", "time.end": 5e-6, "integrator.rtol": 1e-2, "integrator.remap": 1e-6}
 # They swing to and fro across the nodes.
 _on_nodes = {"integrator.step": 0.5 * time_unit, "integrator.max_growth": 1.5, "body.0.box.min.0": -5e-4 + 1e-12, "body.0.box.max.0": 0.0395 + 1e-12}
 _short = {"time.end": 2e-6}
