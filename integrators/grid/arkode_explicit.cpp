@@ -42,20 +42,22 @@ bool ArkodeExplicit::advance(System& system, double target, StepObserver& observ
   begin(system, target);
   const std::optional<double> fixed = settings_.fixed_step;
   while (system.time < target) {
+    // No step goes over an instant at which a boundary comes to hold other nodes.
+    const double stop = std::min(target, system.grid.next_boundary_shift(system.time));
     if (fixed) {  // equal steps, not longer than asked for
-      const double left = target - system.time;
+      const double left = stop - system.time;
       solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *fixed - 1e-6)));
     }
-    const ArkSolver::Step step = attempt(target);
+    const ArkSolver::Step step = attempt(stop);
     if (step.failure != ArkSolver::Failure::none) fail(system, step);
     if (!fixed) particles_->add_errors(solver_->local_errors(), state_.error);
-    const bool reflected = particles_->commit(step.time, solver_->y());
-    system.time = step.limit == ArkSolver::Limit::stop ? target : step.time;
+    const bool replaced = particles_->commit(step.time, solver_->y());
+    system.time = step.limit == ArkSolver::Limit::stop ? stop : step.time;
     ++system.step_index;
     count_step(step, solver_->counters(), before_, fixed.has_value(), state_.counters);
     state_.next_step = solver_->next_step();
     if (!observer.step_done(system, step.length)) return system.time >= target;
-    if (reflected && system.time < target) begin(system, target);
+    if ((replaced || system.time == stop) && system.time < target) begin(system, target);
   }
   return true;
 }

@@ -31,9 +31,11 @@ double longest_phase(const System& system, const RemapSettings& remap) {
   return fastest > 0.0 ? std::min(remap.duration, remap.travel * system.cell / fastest) : remap.duration;
 }
 
-/// Phases up to a target are of equal length, and short enough for the fastest particle.
+/// Phases up to a target, or to the next instant at which a boundary comes to hold other nodes, are of equal
+/// length, and short enough for the fastest particle.
 double ArkodeImplicit::phase_end(const System& system, double target) const {
   require_above_rounding(remap_.duration, "remap", system.time, target);
+  target = std::min(target, system.grid.next_boundary_shift(system.time));
   const double length = longest_phase(system, remap_);
   const double left = target - system.time;
   const double phases = std::max(1.0, std::ceil(left / length - 1e-6));

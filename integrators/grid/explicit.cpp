@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/carried.hpp"
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
@@ -20,9 +21,10 @@ ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> 
     : scheme_(scheme), step_(step), courant_(courant) {}
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
-  system.record.external_work = 0.0;
+  system.grid.move_boundaries(system.time);
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
+  system.record.external_work = mpm::carry_held(system).work;
   mpm::StressUpdate stress(system, duration);
   const auto scatter = [&](Scatter what) {
     return mpm::scatter_pass(system, what, mpm::Nodes::moved, duration);

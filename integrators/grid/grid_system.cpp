@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
+#include "mpm/carried.hpp"
 #include "mpm/stress.hpp"
 
 namespace vitrum {
@@ -35,7 +37,9 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
 }
 
 void GridSystem::begin_phase() {
+  system_.grid.move_boundaries(system_.time);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
+  carried_work_ = mpm::carry_held(system_).work;
   mpm::scatter(system_, mpm::Scatter::momentum);
   mpm::project_velocities(system_);
   mpm::number_unknowns(system_, nodes_);
@@ -224,8 +228,8 @@ void GridSystem::commit(double t, const double* y) {
   for (std::size_t k = 0; k < n; ++k)
     gained += 0.5 * nodes_.mass[k] * (y[n + k] - start_velocity_[k]) * (y[n + k] + start_velocity_[k]);
   system_.record.kinetic = start_kinetic_ + gained;
-  system_.record.external_work = works_ ? y[2 * n] - committed_work_ : 0.0;
-  if (works_) committed_work_ = y[2 * n];
+  system_.record.external_work = std::exchange(carried_work_, 0.0);
+  if (works_) system_.record.external_work += y[2 * n] - std::exchange(committed_work_, y[2 * n]);
 }
 
 double GridSystem::end_phase(const double* y) {

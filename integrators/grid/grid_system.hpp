@@ -94,6 +94,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   std::vector<mpm::ParticleGradient> gradients_;  ///< pointers into them
   std::vector<double> start_velocity_;            ///< by node unknown
   double start_time_ = 0.0, committed_time_ = 0.0, committed_work_ = 0.0;
+  double carried_work_ = 0.0;  ///< done when the phase began, not booked yet
   double start_kinetic_ = 0.0, mean_mass_ = 0.0, deformation_ = 0.0;
 };
 

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
+#include "mpm/carried.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
 
@@ -48,7 +50,9 @@ std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, con
 void ParticleSystem::begin(double* y) {
   // Always, so that the order of the unknowns follows from the positions, not from the history.
   system_.grid_is_stale = true;
+  system_.grid.move_boundaries(system_.time);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
+  carried_work_ = mpm::carry_held(system_).work;
   order_parts();
   std::fill(y, y + size_, 0.0);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -238,10 +242,20 @@ bool ParticleSystem::commit(double t, double* y) {
       last_strain_[n][i] = norm(SymmetricTensor{change[0][i], change[1][i], change[2][i], change[3][i]});
   });
   committed_time_ = t;
-  system_.record.external_work = works_ ? y[size_ - 1] - committed_work_ : 0.0;
-  if (works_) committed_work_ = y[size_ - 1];
+  system_.record.external_work = std::exchange(carried_work_, 0.0);
+  if (works_) system_.record.external_work += y[size_ - 1] - std::exchange(committed_work_, y[size_ - 1]);
+  const bool replaced = reflect(y), carried = carry();
   system_.record.kinetic = kinetic_energy();
-  return reflect(y);
+  return replaced || carried;
+}
+
+/// Particles that have come to move with held nodes take their velocity; whether some have.
+bool ParticleSystem::carry() {
+  if (system_.grid.boundaries().empty()) return false;
+  mpm::refresh_grid_for_positions(system_);
+  const mpm::Carried carried = mpm::carry_held(system_);
+  system_.record.external_work += carried.work;
+  return carried.changed;
 }
 
 double ParticleSystem::kinetic_energy() {

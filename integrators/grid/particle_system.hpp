@@ -36,7 +36,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   /// Starts from the system's particles and time.
   void begin(double* y);
   /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a
-  /// particle has crossed the axis and was replaced by its image, in y as well; the solver must start anew.
+  /// particle has crossed the axis and was replaced by its image, or is carried by held nodes from now on;
+  /// the solver must start anew, from `begin`.
   bool commit(double t, double* y);
 
   /// Adds the estimated local errors of a step.
@@ -78,6 +79,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   void mirror_rates(const double* y, double* rates) const;
   double kinetic_energy();
   bool reflect(double* y);
+  bool carry();
 
   System& system_;
   ErrorScales scales_;
@@ -100,6 +102,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::vector<std::vector<double>>
       last_strain_;  ///< by body: norm of each particle's strain in the last step
   double committed_time_ = 0.0, committed_work_ = 0.0;
+  double carried_work_ = 0.0;  ///< done at `begin`, not booked yet
 };
 
 }  // namespace vitrum

@@ -7,7 +7,7 @@ enum class StepLimit {
   fixed,      ///< its length was given
   stability,  ///< the critical step of the method
   accuracy,   ///< the error estimate
-  output,     ///< an output, a checkpoint, or the end
+  output,     ///< an output, a checkpoint, the end, or that a boundary comes to hold other nodes
   remap,      ///< the end of a Lagrangian phase
 };
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/demands.hpp"
+#include "scene/boundary_checks.hpp"
 #include "scene/grid_method.hpp"
 
 namespace vitrum::app {
@@ -72,6 +74,7 @@ void warn_of_snap_back(const Scene& scene, Warnings& list) {
 
 Warnings warnings(const Scene& scene, const System& system, int threads) {
   Warnings list = scene.warnings;
+  std::ranges::move(boundary_warnings(scene), std::back_inserter(list));
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   warn_of_duration(scene, system, threads, list);
   warn_of_step(scene, critical, list);

@@ -71,12 +71,14 @@ void start(Body& body) {
 /// Whether a held node that the body may touch asks for another velocity than the body's.
 bool meets_boundary(const System& system, const Coasting& body) {
   const double cell = system.cell, reach = system.grid.shape() == ShapeKind::linear ? 1.0 : 2.0;
-  for (const Boundary& wall : system.grid.boundaries()) {
+  for (std::size_t n = 0; n < system.grid.boundaries().size(); ++n) {
+    const Boundary& wall = system.grid.boundaries()[n];
     bool differs = false, near = true;
     for (std::size_t k = 0; k < 2; ++k) {
+      const double gone = system.grid.shift(n, k) * cell;
       differs = differs || (wall.fixed[k] && wall.velocity[k] != body.velocity[k]);
-      near = near && wall.min[k] <= body.highest[k] + reach * cell &&
-             wall.max[k] >= body.lowest[k] - reach * cell;
+      near = near && wall.min[k] + gone <= body.highest[k] + reach * cell &&
+             wall.max[k] + gone >= body.lowest[k] - reach * cell;
     }
     if (differs && near) return true;
   }

@@ -30,8 +30,7 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
                    [[maybe_unused]] StressUpdate* stress) {
   Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
-  const bool at_axis = axisymmetric && kind != ShapeKind::linear && block.column == 0;
-  const NodePacks<kind, P> nodes(grid, block, at_axis);
+  const NodePacks<kind, P> nodes(grid, tile);
   Pack<2>* momenta = grid.tile_data(tile).template packs<2>();
   if constexpr (P::rescatter) clear_tile<kind>(momenta);
 
@@ -71,8 +70,7 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
   if constexpr (P::strain)
     if (stress != nullptr) stress->finish(tile);
   if constexpr (P::position) grid.note_moved(tile, system.bodies, left);
-  if constexpr (P::rescatter && axisymmetric && kind != ShapeKind::linear)
-    if (block.column == 0) fold_axis(momenta, axis_parity<2>);
+  if constexpr (P::rescatter && kind != ShapeKind::linear) fold_images(grid.images(tile), momenta);
   return kinetic;
 }
 

@@ -47,11 +47,11 @@ struct GradientPlan {
 template <ShapeKind kind, class P>
 class NodePacks {
  public:
-  NodePacks(const Grid& grid, const Block& block, bool at_axis) {
+  NodePacks(const Grid& grid, std::size_t tile) {
     const double *v0 = grid.field(Field::velocity_0), *v1 = grid.field(Field::velocity_1),
                  *w0 = grid.field(Field::new_velocity_0), *w1 = grid.field(Field::new_velocity_1);
     load_tile<kind>(
-        block,
+        grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])],
         [&](std::size_t n, Pack<P::width>& node) {
           Pack<2> first{v0[n], v1[n]};
           const Pack<2> last{w0[n], w1[n]};
@@ -62,7 +62,7 @@ class NodePacks {
             node = first;
         },
         nodes_);
-    if (at_axis) mirror_axis(nodes_, axis_parity<P::width>);
+    if constexpr (kind != ShapeKind::linear) fill_images(grid.images(tile), nodes_);
   }
   const Pack<P::width>& operator[](std::size_t entry) const { return nodes_[entry]; }
 

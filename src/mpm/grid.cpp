@@ -202,36 +202,4 @@ void Grid::add_neighbours(bool by_row) {
       }
 }
 
-/// Finds the held components of every node; of overlapping boundaries the later wins, the axis always.
-void Grid::mark_constraints() {
-  for (auto& c : constraints_) c.assign(blocks_.size() * block_nodes, Constraint::free);
-  const double slack = 1e-9 * cell_;
-  for (std::size_t n = 0; n < blocks_.size(); ++n) {
-    Block& b = blocks_[n];
-    b.constrained = false;
-    const double side = block_side * cell_, r0 = b.column * side, z0 = b.row * side;
-    const auto hold = [&](std::size_t component, int node, std::int16_t by) {
-      constraints_[component][n * block_nodes + static_cast<std::size_t>(node)] = by;
-      b.constrained = true;
-    };
-    for (std::size_t k = 0; k < boundaries_.size(); ++k) {
-      const Boundary& wall = boundaries_[k];
-      if (wall.min[0] > r0 + side || wall.max[0] < r0 - slack || wall.min[1] > z0 + side ||
-          wall.max[1] < z0 - slack)
-        continue;
-      for (int node = 0; node < block_nodes; ++node) {
-        const int i = node % block_side, j = node / block_side;
-        const double r = r0 + i * cell_, z = z0 + j * cell_;
-        if (r < wall.min[0] - slack || r > wall.max[0] + slack || z < wall.min[1] - slack ||
-            z > wall.max[1] + slack)
-          continue;
-        for (std::size_t component = 0; component < 2; ++component)
-          if (wall.fixed[component]) hold(component, node, static_cast<std::int16_t>(k));
-      }
-    }
-    if (axisymmetric_ && b.column == 0)
-      for (int j = 0; j < block_side; ++j) hold(0, j * block_side, Constraint::axis);
-  }
-}
-
 }  // namespace vitrum::mpm

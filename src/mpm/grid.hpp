@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mpm/boundary.hpp"
 #include "mpm/pack.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/shape.hpp"
@@ -88,11 +89,12 @@ struct Constraint {
   static constexpr std::int16_t free = -1, axis = -2;  ///< otherwise: index of the boundary
 };
 
-/// A box of nodes with held or prescribed velocity components.
-struct Boundary {
-  std::array<double, 2> min, max;  ///< m; a node within rounding of the box belongs to it
-  std::array<bool, 2> fixed;
-  std::array<double, 2> velocity;  ///< m/s
+/// A node of a tile behind a plane of symmetry and the node that it is the image of: what the image collects
+/// goes to the node, and the image moves as the node does, but for the sign of the component across the
+/// plane.
+struct Image {
+  std::uint8_t entry, node;  ///< entries of the tile
+  std::uint8_t component;    ///< across the plane
 };
 
 /// Unbounded sparse grid: only blocks that particles touch exist. Also knows which particles are in which
@@ -100,8 +102,7 @@ struct Boundary {
 class Grid {
  public:
   Grid() = default;
-  Grid(double cell, ShapeKind shape, bool axisymmetric, std::vector<Boundary> boundaries)
-      : cell_(cell), shape_(shape), axisymmetric_(axisymmetric), boundaries_(std::move(boundaries)) {}
+  Grid(double cell, ShapeKind shape, bool axisymmetric, std::vector<Boundary> boundaries);
 
   /// Sorts the particles into blocks anew. Depends on positions and identities only, not on history or on how
   /// particles are stored. Throws ComputationError for positions that are not finite or too far away (2^31
@@ -160,6 +161,21 @@ class Grid {
     return constraints_[component][node];
   }
   const std::vector<Boundary>& boundaries() const { return boundaries_; }
+  /// Brings the boundaries to where they are at `time` (s). Throws ComputationError where two have met that
+  /// contradict each other.
+  void move_boundaries(double time);
+  /// The first time after `time` at which a boundary comes to hold other nodes; infinite: never.
+  double next_boundary_shift(double time) const;
+  /// Whole cells that a boundary has gone along a component's axis.
+  double shift(std::size_t boundary, std::size_t component) const { return shifts_[boundary][component]; }
+  /// The columns (component 0) or rows of nodes that a boundary holds now.
+  Rows held_rows(std::size_t boundary, std::size_t component) const;
+  /// To be folded in this order, and read in the opposite one.
+  std::span<const Image> images(std::size_t tile) const {
+    return {images_.data() + first_image_[tile], images_.data() + first_image_[tile + 1]};
+  }
+  /// Whether some cell of the tile's has no node that is free in some component.
+  bool may_carry(std::size_t tile) const { return carries_[tile]; }
   double cell() const { return cell_; }
   bool axisymmetric() const { return axisymmetric_; }
   ShapeKind shape() const { return shape_; }
@@ -213,6 +229,10 @@ class Grid {
   void add_neighbours(bool by_row);
   std::array<int, 4> reach(const Block& block) const;
   void mark_constraints();
+  void hold(std::size_t component, std::size_t node, std::int16_t by);
+  void list_images();
+  void list_images_of(const Block& block, std::size_t boundary, std::size_t component, int side);
+  void find_carrying_tiles();
   static std::size_t scattered_in(Range list);
 
   void find_movers(std::size_t tile, const std::vector<Body>& bodies);
@@ -232,6 +252,8 @@ class Grid {
   ShapeKind shape_ = ShapeKind::linear;
   bool axisymmetric_ = true;
   std::vector<Boundary> boundaries_;
+  std::vector<std::int16_t> by_priority_;      // the boundaries, those that act last
+  std::vector<std::array<double, 2>> shifts_;  // of the boundaries, cells
 
   std::size_t body_count_ = 0;
   std::vector<Block> blocks_;
@@ -251,6 +273,9 @@ class Grid {
   std::unordered_map<std::uint64_t, std::int32_t> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;
+  std::vector<Image> images_;             // by tile
+  std::vector<std::size_t> first_image_;  // of each tile
+  std::vector<bool> carries_;             // by tile
   bool keeps_sums_ = false;
   std::vector<TileData> tile_data_;
   std::vector<std::uint32_t> tile_place_;  // of each tile, in tile_data_

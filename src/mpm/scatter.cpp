@@ -144,11 +144,9 @@ void scatter_tile(System& system, std::size_t tile) {
       }
     });
   }
-  if constexpr (axisymmetric && kind != ShapeKind::linear) {
-    if (block.column == 0) {
-      fold_axis(vectors, axis_parity<P::width>);
-      if constexpr (P::momentum) fold_axis(masses, 1.0);
-    }
+  if constexpr (kind != ShapeKind::linear) {
+    fold_images(grid.images(tile), vectors);
+    if constexpr (P::momentum) fold_images(grid.images(tile), masses);
   }
 }
 

@@ -8,25 +8,25 @@
 namespace vitrum::mpm {
 namespace {
 
-/// Index of the node at column i, row j of a block's own count (-2 .. 9); -1: in no block.
-std::int64_t node_at(const Block& block, int i, int j) {
-  const auto side = [](int k) { return k < 0 ? -1 : k >= block_side ? 1 : 0; };
-  const std::int32_t n = neighbour(block, side(i), side(j));
-  if (n < 0) return -1;
-  return std::int64_t{n} * block_nodes + ((j + block_side) % block_side) * block_side +
-         (i + block_side) % block_side;
-}
-
 /// What one node of a particle's stencil contributes.
 struct StencilNode {
   std::int64_t node;
   int column, row;                 ///< in the particle's block
   double value, slope_r, slope_z;  ///< N, dN/dr, dN/dz
-  double parity;                   ///< of the radial component: -1 for the image beyond the axis
+  std::array<double, 2> parity;    ///< of the components: -1 across a plane whose image this was
 };
 
+/// Replaces an image by the node that it is the image of.
+void take_node_of_image(std::span<const Image> images, const Block& block, StencilNode& s) {
+  std::uint8_t entry = tile_entry(s.column, s.row);
+  for (const Image& image : images)
+    if (image.entry == entry) entry = image.node, s.parity[image.component] *= -1.0;
+  s.column = entry % tile_columns - 1, s.row = entry / tile_columns - 1;
+  s.node = node_at(block, s.column, s.row);
+}
+
 /// Calls f(body, particle, stencil) for all particles, tile by tile.
-template <ShapeKind kind, bool axisymmetric, class F>
+template <ShapeKind kind, class F>
 void for_stencils(const System& system, F&& f) {
   using S = Shape1<kind>;
   const Grid& grid = system.grid;
@@ -34,6 +34,7 @@ void for_stencils(const System& system, F&& f) {
   std::array<StencilNode, static_cast<std::size_t>(S::count * S::count)> stencil{};
   for (std::size_t tile = 0; tile < grid.tiles().size(); ++tile) {
     const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
+    const std::span<const Image> images = grid.images(tile);
     for (std::size_t n = 0; n < system.bodies.size(); ++n) {
       const Body& body = system.bodies[n];
       const double half = body.particle_half_size * per_cell;
@@ -44,19 +45,19 @@ void for_stencils(const System& system, F&& f) {
         std::size_t count = 0;
         for (std::size_t b = 0; b < S::count; ++b)
           for (std::size_t a = 0; a < S::count; ++a) {
-            int i =
+            const auto i =
                 static_cast<int>(wr.first - std::int64_t{block.column} * block_side) + static_cast<int>(a);
-            const int j =
+            const auto j =
                 static_cast<int>(wz.first - std::int64_t{block.row} * block_side) + static_cast<int>(b);
-            const bool image = axisymmetric && block.column == 0 && i < 0;
-            if (image) i = -i;
-            stencil[count++] = {node_at(block, i, j),
-                                i,
-                                j,
-                                wr.value[a] * wz.value[b],
-                                per_cell * wr.slope[a] * wz.value[b],
-                                per_cell * wr.value[a] * wz.slope[b],
-                                image ? -1.0 : 1.0};
+            StencilNode& s = stencil[count++];
+            s = {node_at(block, i, j),
+                 i,
+                 j,
+                 wr.value[a] * wz.value[b],
+                 per_cell * wr.slope[a] * wz.value[b],
+                 per_cell * wr.value[a] * wz.slope[b],
+                 {1.0, 1.0}};
+            if (!images.empty()) take_node_of_image(images, block, s);
           }
         f(n, std::size_t{*k}, stencil);
       }
@@ -74,8 +75,8 @@ std::size_t offset_between(const From& a, const To& b) {
 void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns) {
   const Grid& grid = system.grid;
   links_.assign(grid.blocks().size() * block_nodes, {});
-  dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
-    for_stencils<kind, axisymmetric>(system, [&](std::size_t, std::size_t, const auto& stencil) {
+  dispatch(grid, [&]<ShapeKind kind, bool>() {
+    for_stencils<kind>(system, [&](std::size_t, std::size_t, const auto& stencil) {
       for (const StencilNode& from : stencil)
         for (const StencilNode& to : stencil)
           if (from.node >= 0 && to.node >= 0)
@@ -116,7 +117,7 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
   const Grid& grid = system.grid;
   values.assign(pattern_.row.size(), 0.0);
   dispatch(grid, [&]<ShapeKind kind, bool axisymmetric>() {
-    for_stencils<kind, axisymmetric>(system, [&](std::size_t n, std::size_t i, const auto& stencil) {
+    for_stencils<kind>(system, [&](std::size_t n, std::size_t i, const auto& stencil) {
       const Particles& p = system.bodies[n].particles;
       const auto& g = gradients[n].gradient;
       const FiniteStrain deformation({g[0][i], g[1][i], g[2][i], g[3][i], g[4][i]});
@@ -131,8 +132,9 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
         const StencilNode& s = stencil[a];
         const SymmetricTensor r = deformation.change({s.slope_r, s.slope_z, 0.0, 0.0, s.value * hoop}),
                               z = deformation.change({0.0, 0.0, s.slope_r, s.slope_z, 0.0});
-        B[2 * a] = {s.parity * r.rr, s.parity * r.zz, s.parity * r.tt, s.parity * r.rz};
-        B[2 * a + 1] = {z.rr, z.zz, z.tt, z.rz};
+        const auto [across_r, across_z] = s.parity;
+        B[2 * a] = {across_r * r.rr, across_r * r.zz, across_r * r.tt, across_r * r.rz};
+        B[2 * a + 1] = {across_z * z.rr, across_z * z.zz, across_z * z.tt, across_z * z.rz};
       }
       for (std::size_t a = 0; a < 2 * count; ++a)
         for (std::size_t row = 0; row < 4; ++row) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <span>
 
 #include "mpm/system.hpp"
 
@@ -41,6 +42,19 @@ inline void for_neighbourhood(F&& f) {
 
 inline std::int32_t neighbour(const Block& b, int di, int dj) {
   return b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
+}
+
+/// The node at column i, row j of a block's own count (-2 .. 9); -1: in no block.
+inline std::int64_t node_at(const Block& block, int i, int j) {
+  const auto side = [](int k) { return k < 0 ? -1 : k >= block_side ? 1 : 0; };
+  const std::int32_t n = neighbour(block, side(i), side(j));
+  if (n < 0) return -1;
+  return std::int64_t{n} * block_nodes + ((j + block_side) % block_side) * block_side +
+         (i + block_side) % block_side;
+}
+/// The entry of that node in the block's tile.
+inline std::uint8_t tile_entry(int i, int j) {
+  return static_cast<std::uint8_t>((j + 1) * tile_columns + i + 1);
 }
 
 /// Fills what of the tile of block `b` can be touched: by load(node, value), or with zero where there is no
@@ -86,31 +100,32 @@ inline void for_shares(Grid& grid, const Block& b, Add&& add) {
   });
 }
 
-/// Signs that the components of a node's vectors change with under reflection at the axis.
-template <int width>
-inline constexpr Pack<width> axis_parity{};
-template <>
-inline constexpr Pack<2> axis_parity<2>{-1.0, 1.0};
-template <>
-inline constexpr Pack<4> axis_parity<4>{-1.0, 1.0, -1.0, 1.0};
+/// The sign that a place in a node's vectors, side by side, changes with under reflection at a plane across a
+/// component.
+inline double parity(std::size_t place, std::uint8_t component) {
+  return place % 2 == component ? -1.0 : 1.0;
+}
 
-/// The axis is a plane of symmetry: the image of a particle at -r touches node +1 as the particle touches
-/// node -1, with the opposite radial component. Folds column -1 of a summed tile onto column +1.
-template <class Value>
-inline void fold_axis(Value* tile, const Value& parity) {
-  for (int row = 0; row < tile_rows; ++row) {
-    Value* r = tile + row * tile_columns;
-    r[2] += parity * r[0];
-    r[0] = Value{};
+/// A plane of symmetry (the axis, or a boundary that mirrors): the image of a particle touches a node as the
+/// particle touches the node's image. Folds what images have collected onto their nodes.
+template <class Vectors>
+inline void fold_images(std::span<const Image> images, Vectors* tile) {
+  for (const Image& image : images) {
+    Vectors &node = tile[image.node], &from = tile[image.entry];
+    for (std::size_t k = 0; k < sizeof(Vectors) / sizeof(double); ++k)
+      node[k] += parity(k, image.component) * from[k];
+    from = Vectors{};
   }
 }
-/// Fills column -1 of a tile to be read from.
-template <class Value>
-inline void mirror_axis(Value* tile, const Value& parity) {
-  for (int row = 0; row < tile_rows; ++row) {
-    Value* r = tile + row * tile_columns;
-    r[0] = parity * r[2];
-  }
+inline void fold_images(std::span<const Image> images, double* masses) {
+  for (const Image& image : images) masses[image.node] += masses[image.entry], masses[image.entry] = 0.0;
+}
+/// Fills the images of a tile that is to be read from.
+template <class Vectors>
+inline void fill_images(std::span<const Image> images, Vectors* tile) {
+  for (std::size_t n = images.size(); n-- > 0;)
+    for (std::size_t k = 0; k < sizeof(Vectors) / sizeof(double); ++k)
+      tile[images[n].entry][k] = parity(k, images[n].component) * tile[images[n].node][k];
 }
 
 /// Radius used in the hoop terms: never 0 (there N v_r / r has its limit as r -> 0).

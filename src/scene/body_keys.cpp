@@ -28,11 +28,22 @@ std::vector<KeyInfo> boundary_keys(Geometry geometry) {
                            "velocity components held: \"r\", \"z\", or \"x\", \"y\" in plane strain");
   fix.expected = "a list of " + quoted_list(fix.choices);
   return {
-      required(other_key(
-          "box", "a table {min = [..], max = [..]}",
-          "acts on the grid nodes inside or on it; sides may be infinite, opposite sides may coincide")),
+      text_key("name", "unique; names the boundary in messages; absent: `boundary.N`, counted from 0"),
+      required(other_key("box", "a table {min = [..], max = [..]}",
+                         "acts on the grid nodes inside or on it; sides may be infinite, opposite sides may "
+                         "coincide; deep boxes that hold one component at 0 have faces that are planes of "
+                         "symmetry")),
       required(std::move(fix)),
       defaulted(list_key("velocity", 2, finite, "m/s", "value of the held components"), "[0.0, 0.0]"),
+      defaulted(flag_key("moves",
+                         "the box moves with its velocity from `time.start` on, by whole cells; false: it "
+                         "stays, and what it holds flows through"),
+                "true"),
+      defaulted(bounded(other_key("priority", "an integer from -1000 to 1000",
+                                  "where boundaries hold the same component of a node, the largest acts; "
+                                  "different velocities with the same priority are an error"),
+                        {-1000.0, 1000.0}),
+                "0"),
   };
 }
 

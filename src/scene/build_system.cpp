@@ -100,6 +100,33 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
   return body;
 }
 
+/// Whether the faces of a boundary are planes of symmetry: it holds the component across them at 0 and leaves
+/// the other free, and no body reaches into it.
+bool mirrors(const BoundaryDefinition& boundary, const System& system) {
+  const std::size_t across = boundary.fixed[0] ? 0 : 1;
+  if (boundary.fixed[1 - across] || boundary.velocity[across] != 0.0) return false;
+  const double slack = 1e-9 * system.cell;
+  const auto within = [&](const Particles& p, std::size_t i) {
+    bool inside = true;
+    for (std::size_t c = 0; c < 2; ++c)
+      inside = inside && p.position[c][i] > boundary.box.min[c] + slack &&
+               p.position[c][i] < boundary.box.max[c] - slack;
+    return inside;
+  };
+  for (const Body& body : system.bodies)
+    for (std::size_t i = 0; i < body.particles.size; ++i)
+      if (within(body.particles, i)) return false;
+  return true;
+}
+
+std::vector<mpm::Boundary> make_boundaries(const Scene& scene, const System& system) {
+  std::vector<mpm::Boundary> list;
+  for (const BoundaryDefinition& b : scene.boundaries)
+    list.push_back({b.name, b.box.min, b.box.max, b.fixed, b.velocity, b.moves, scene.start, b.priority,
+                    mirrors(b, system)});
+  return list;
+}
+
 }  // namespace
 
 System build_system(const Scene& scene, int threads) {
@@ -110,11 +137,8 @@ System build_system(const Scene& scene, int threads) {
   system.time = scene.start;
   for (std::size_t index = 0; index < scene.bodies.size(); ++index)
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
-  std::vector<mpm::Boundary> boundaries;
-  for (const BoundaryDefinition& b : scene.boundaries)
-    boundaries.push_back({b.box.min, b.box.max, b.fixed, b.velocity});
-  system.grid =
-      mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric, std::move(boundaries));
+  system.grid = mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric,
+                          make_boundaries(scene, system));
   system.local = make_local_integrator(scene.constitutive);
   system.team = std::make_unique<mpm::ThreadTeam>(
       threads > 0 ? threads : thread_count(scene, system, available_threads()));

@@ -78,6 +78,10 @@ KeyInfo text_key(std::string_view name, std::string_view meaning) {
   return other_key(name, "a string", meaning);
 }
 
+KeyInfo flag_key(std::string_view name, std::string_view meaning) {
+  return other_key(name, "true or false", meaning);
+}
+
 KeyInfo other_key(std::string_view name, std::string_view expected, std::string_view meaning) {
   KeyInfo key;
   key.name = name;

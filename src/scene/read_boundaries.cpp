@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scene/boundary_checks.hpp"
 #include "scene/choices.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
@@ -37,6 +38,11 @@ bool read_fixed(const TableReader& boundary, Geometry geometry, std::array<bool,
 
 BoundaryDefinition read_boundary(const TableReader& table, Geometry geometry) {
   BoundaryDefinition boundary{};
+  boundary.name = table.path();  // "boundary.N"
+  if (table.read("name", boundary.name) && (boundary.name.empty() || has_control_characters(boundary.name)))
+    table.fail("name", "a name that is not empty, without line breaks or other control characters");
+  table.read("moves", boundary.moves);
+  table.read("priority", boundary.priority);
   read_box(table, boundary.box);
   const bool fixes = read_fixed(table, geometry, boundary.fixed);
   if (!table.read("velocity", boundary.velocity) || !fixes) return boundary;
@@ -48,11 +54,30 @@ BoundaryDefinition read_boundary(const TableReader& table, Geometry geometry) {
   return boundary;
 }
 
+/// Reports what cannot stand together with the boundaries read before.
+void check_against_earlier(const TableReader& table, const BoundaryDefinition& boundary, const Scene& scene) {
+  for (const BoundaryDefinition& earlier : scene.boundaries) {
+    if (earlier.name == boundary.name) table.fail("name", "a name that no other boundary has");
+    const auto when = contradiction(scene, earlier, boundary);
+    if (!when) continue;
+    table.report(
+        "velocity",
+        fmt::format("found [{}, {}] m/s for nodes that boundary '{}' holds at [{}, {}] m/s{}; expected "
+                    "the same, boxes that have no node in common, or another 'priority' of one of them",
+                    number_text(boundary.velocity[0]), number_text(boundary.velocity[1]), earlier.name,
+                    number_text(earlier.velocity[0]), number_text(earlier.velocity[1]),
+                    *when > scene.start ? fmt::format(" (they meet at t = {:.4g} s)", *when) : ""));
+  }
+}
+
 }  // namespace
 
 void read_boundaries(const TableReader& document, Scene& scene) {
-  for (const TableReader& table : document.tables("boundary", keys::boundary(scene.geometry)))
-    scene.boundaries.push_back(read_boundary(table, scene.geometry));
+  for (const TableReader& table : document.tables("boundary", keys::boundary(scene.geometry))) {
+    const BoundaryDefinition boundary = read_boundary(table, scene.geometry);
+    check_against_earlier(table, boundary, scene);
+    scene.boundaries.push_back(boundary);
+  }
 }
 
 }  // namespace vitrum::scene

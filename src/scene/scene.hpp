@@ -54,9 +54,12 @@ struct BodyDefinition {
 };
 
 struct BoundaryDefinition {
-  Box box{};  ///< acts on grid nodes inside; may be infinite
+  std::string name;
+  Box box{};  ///< acts on grid nodes inside, at the start; may be infinite
   std::array<bool, 2> fixed{false, false};
   Vector2 velocity{0.0, 0.0};  ///< m/s, of the fixed components
+  bool moves = true;           ///< the box, with this velocity
+  int priority = 0;            ///< of boundaries that hold the same nodes, the largest acts
 };
 
 struct IntegratorDefinition {
@@ -75,7 +78,7 @@ struct IntegratorDefinition {
   std::string linear_solver = "klu";
   std::string preconditioner = "factor";
   std::optional<double> remap;  ///< s; none: phases end by travel and strain alone
-  double remap_travel = 0.25;  ///< cells
+  double remap_travel = 0.25;   ///< cells
   double remap_strain = 0.02;
 };
 

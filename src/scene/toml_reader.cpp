@@ -131,6 +131,16 @@ bool TableReader::read(std::string_view key, int& value) const {
   return valid;
 }
 
+bool TableReader::read(std::string_view key, bool& value) const {
+  const KeyInfo& info = find_key(keys_, key);
+  const toml::node* node = table_->get(key);
+  if (node == nullptr) return false;
+  const auto* flag = node->as_boolean();
+  if (flag == nullptr) fail(key, info.expected);
+  if (flag != nullptr) value = flag->get();
+  return flag != nullptr;
+}
+
 bool TableReader::read(std::string_view key, std::string& value) const {
   const KeyInfo& info = find_key(keys_, key);
   const toml::node* node = table_->get(key);

@@ -29,6 +29,7 @@ class TableReader {
   bool read(std::string_view key, double& value) const;
   bool read(std::string_view key, std::optional<double>& value) const;
   bool read(std::string_view key, int& value) const;
+  bool read(std::string_view key, bool& value) const;
   bool read(std::string_view key, std::string& value) const;
   bool read(std::string_view key, std::optional<std::string>& value) const;
   /// A list of exactly components.size() numbers.

@@ -22,6 +22,9 @@ std::string value_text(double value) {
 std::string value_text(int value) {
   return std::to_string(value);
 }
+std::string value_text(bool value) {
+  return value ? "true" : "false";
+}
 std::string value_text(std::string_view text) {
   return toml_quoted(text);
 }
@@ -136,12 +139,15 @@ void write_body(TomlWriter& out, const BodyDefinition& body) {
 
 void write_boundary(TomlWriter& out, const BoundaryDefinition& boundary, Geometry geometry) {
   out.header("[[boundary]]");
+  out.line("name", boundary.name);
   out.line("box", boundary.box);
   std::vector<std::string> fixed;
   for (std::size_t i = 0; i < 2; ++i)
     if (boundary.fixed[i]) fixed.emplace_back(component_names(geometry)[i]);
   out.raw("fix", '[' + quoted_list(fixed) + ']');
   out.line("velocity", boundary.velocity);
+  out.line("moves", boundary.moves);
+  out.line("priority", boundary.priority);
 }
 
 void write_material(TomlWriter& out, const MaterialParameters& material) {

@@ -57,6 +57,13 @@ class Check(CommandLineTest):
         courant = self.vitrum("check", impact, *overrides(integrator__courant=5.0))
         self.assertRegex(courant.stderr, r"warning: --set 1: key 'integrator\.courant': .* is 5 times the critical step")
 
+    def test_boxes_without_a_node_are_warned_of(self):
+        for command in ("check", "run"):
+            out = ("--out", self.folder / "out") if command == "run" else ()
+            answer = self.vitrum(command, impact, *out, "--set", 'boundary=[{name="die", fix=["z"], box={min=[0, 0.0051], max=[1, 0.0054]}}]')
+            self.assertRegex(answer.stderr, r"warning: boundary\.0\.box: boundary 'die' holds no node: .* nearest is at z = 0\.005")
+        self.assertNotIn("holds no node", self.vitrum("check", impact).stderr)
+
     def test_nothing_is_written(self):
         self.vitrum("check", impact)
         self.assertEqual(list(self.folder.iterdir()), [])
