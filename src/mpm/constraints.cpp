@@ -158,6 +158,7 @@ void Grid::find_carrying_tiles() {
   carries_.assign(tile_block_.size(), false);
   for (std::size_t tile = 0; !boundaries_.empty() && tile < tile_block_.size(); ++tile) {
     const Block& block = blocks_[static_cast<std::size_t>(tile_block_[tile])];
+    if (!block.constrained) continue;
     for (std::size_t c = 0; c < 2 && !carries_[tile]; ++c) {
       const auto held = [&](int i, int j) {
         const std::int64_t n = node_at(block, i, j);

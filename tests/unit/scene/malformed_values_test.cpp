@@ -144,7 +144,8 @@ TEST_CASE("keys that contradict each other are errors", "[scene]") {
        "s.toml:22:12: key 'boundary.0.priority': ",
        {"found 1001", "from -1000 to 1000"}},
       {"fix = [\"r\", \"z\"]",
-       "fix = [\"z\"]\nname = \"a\"\n[[boundary]]\nbox = {min = [0, 5], max = [1, 6]}\nfix = [\"r\"]\nname = \"a\"",
+       "fix = [\"z\"]\nname = \"a\"\n[[boundary]]\nbox = {min = [0, 5], max = [1, 6]}\nfix = [\"r\"]\nname = "
+       "\"a\"",
        "s.toml:26:8: key 'boundary.1.name': ",
        {"found \"a\"", "no other boundary"}},
       {"velocity = [0, -200.0]",

@@ -180,6 +180,35 @@ TEST_CASE("Between boxes of different velocities particles have that of their mo
   }
 }
 
+TEST_CASE("Moving boxes that hold the same nodes at different velocities end the run, or have an order",
+          "[verification][mpm][boundaries]") {
+  // Each has gone more than half a cell, and so holds one row more: they share it before they have met.
+  for (const Method& method : methods)
+    for (const bool ordered : {false, true}) {
+      CAPTURE(method.name, ordered);
+      MpmScene scene;
+      scene.pace = "courant = 0.05";
+      scene.tables = body("block", box({0.0, 0.0}, {4.0, 4.0}), "particles_per_cell = 4") +
+                     driven("[-inf, -1000]", "[inf, 1]", "\"y\"", {0.0, 0.55}, "name = \"lower\"") +
+                     driven("[-inf, 3]", "[inf, 1000]", "\"y\"", {0.0, -0.55},
+                            ordered ? "name = \"upper\"\npriority = 1" : "name = \"upper\"") +
+                     hold_everywhere("x");
+      MpmRun run(with_method(scene, method));
+      const auto advance = [&] { run.advance(1.0); };
+      if (ordered) {
+        CHECK_NOTHROW(advance());
+        continue;
+      }
+      try {
+        advance();
+        FAIL("two boundaries hold the same nodes at different velocities");
+      } catch (const ComputationError& error) {
+        CHECK(std::string(error.what()).find("boundaries 'lower' and 'upper' have met") != std::string::npos);
+      }
+      CHECK(run.system.time > 0.9);
+    }
+}
+
 TEST_CASE("Moving boxes do not depend on the number of threads", "[verification][mpm][boundaries]") {
   for (const char* shape : {"linear", "bspline2"})
     for (const Method& method : methods) {
