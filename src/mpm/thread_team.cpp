@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -10,26 +9,6 @@
 
 namespace vitrum::mpm {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Waits until `value` is no longer `old`, the first so many microseconds awake. After every 30 of them gives
-/// way to whoever else wants the processor.
-template <class T>
-T wait_for_change(const std::atomic<T>& value, T old, std::chrono::microseconds awake) {
-  constexpr int looks_at_once = 2000;  // about 1 us
-  constexpr std::chrono::microseconds at_once(30);
-  const Clock::time_point since = Clock::now();
-  for (Clock::time_point now = since, gave_way = since; now - since < awake; now = Clock::now()) {
-    for (int i = 0; i < looks_at_once; ++i)
-      if (const T seen = value.load(std::memory_order_acquire); seen != old) return seen;
-    if (now - gave_way < at_once) continue;
-    std::this_thread::yield();
-    gave_way = now;
-  }
-  value.wait(old);
-  return value.load();
-}
 
 /// How long a thread of a team of this size waits awake. On a virtual machine, waking a thread that sleeps
 /// was seen to cost 30 us who wakes it, and 230 us until it is awake, longer than most of what a thread does
@@ -50,7 +29,9 @@ void bind(pthread_t thread, const cpu_set_t& processors) {
 }  // namespace
 
 ThreadTeam::ThreadTeam(int threads)
-    : shares_(static_cast<std::size_t>(threads)), patience_(patience_of(shares_.size())) {
+    : shares_(static_cast<std::size_t>(threads)),
+      claims_(shares_.size()),
+      patience_(patience_of(shares_.size())) {
   try {
     for (std::size_t i = 1; i < shares_.size(); ++i) workers_.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& error) {
@@ -88,7 +69,7 @@ ThreadTeam::~ThreadTeam() {
 void ThreadTeam::dismiss() {
   stop_ = true;
   ++generation_;
-  generation_.notify_all();
+  begun_.changed();
   for (std::thread& worker : workers_) worker.join();
 }
 
@@ -101,13 +82,23 @@ void ThreadTeam::call_for(std::size_t thread) {
   }
 }
 
+/// Whether the part of a thread in the loop of this generation is still to be done: it is the asker's then.
+bool ThreadTeam::claim(std::size_t thread, unsigned generation) {
+  unsigned last = generation - 1;
+  return claims_[thread].generation.compare_exchange_strong(last, generation);
+}
+
+void ThreadTeam::do_part(std::size_t thread) {
+  call_for(thread);
+  if (--busy_ == 0) ended_.changed();
+}
+
 void ThreadTeam::work(std::size_t thread) {
-  unsigned seen = 0;
-  while (true) {
-    seen = wait_for_change(generation_, seen, patience_);
+  for (unsigned seen = 0; true;) {
+    begun_.wait(patience_, [&] { return generation_ != seen; });
+    seen = generation_;
     if (stop_) return;
-    call_for(thread);
-    if (busy_.fetch_sub(1) == 1) busy_.notify_all();
+    if (claim(thread, seen)) do_part(thread);
   }
 }
 
@@ -123,10 +114,13 @@ void ThreadTeam::run(Call call, void* context) {
   call_ = call;
   context_ = context;
   busy_ = workers_.size();
-  ++generation_;
-  generation_.notify_all();
+  const unsigned generation = ++generation_;
+  begun_.changed();
   call_for(0);
-  for (std::size_t left = busy_.load(); left != 0;) left = wait_for_change(busy_, left, patience_);
+  // Who has not come yet may have lost the processor to another process, for longer than all of this takes.
+  for (std::size_t thread = 1; thread < shares_.size(); ++thread)
+    if (claim(thread, generation)) do_part(thread);
+  ended_.wait(patience_, [&] { return busy_ == 0; });
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 

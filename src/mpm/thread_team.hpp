@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "mpm/vigil.hpp"
+
 namespace vitrum::mpm {
 
 /// A fixed set of threads that run one loop at a time. Each thread begins with the same share of the chunks
@@ -25,6 +27,8 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
+  /// How long a thread that waits stays awake.
+  std::chrono::microseconds patience() const { return patience_; }
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls body(chunk) for chunk in [0, chunks); returns when all are done. An exception ends the
@@ -39,8 +43,9 @@ class ThreadTeam {
     on_each_thread([&](std::size_t thread) { take_chunks(thread, body); });
   }
 
-  /// Calls body(thread) once on every thread, the calling one being thread 0; returns when all are done. An
-  /// exception reaches the caller (of several, one does).
+  /// Calls body(thread) once for every thread, thread 0 being the calling one; returns when all are done.
+  /// Each call runs on its thread, or on the calling one where that comes to its end before the other has
+  /// begun. An exception reaches the caller (of several, one does).
   template <class Body>
   void on_each_thread(Body&& body) {
     run([](void* context,
@@ -54,6 +59,10 @@ class ThreadTeam {
   struct alignas(64) Share {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
+  };
+  /// The last loop in which a thread's part has been taken up.
+  struct alignas(64) Claim {
+    std::atomic<unsigned> generation{0};
   };
   void share_out(std::size_t chunks);
   template <class Body>
@@ -74,16 +83,20 @@ class ThreadTeam {
   void run(Call call, void* context);
   void call_for(std::size_t thread);
   void work(std::size_t thread);
+  bool claim(std::size_t thread, unsigned generation);
+  void do_part(std::size_t thread);
   void dismiss();
   void bind_all();
 
   std::vector<std::thread> workers_;
   std::vector<Share> shares_;  // of the calling thread, then of the workers
+  std::vector<Claim> claims_;
   std::chrono::microseconds patience_;
   // What is waited for lies alone: those who look at it all the time delay whoever writes beside it.
   alignas(64) std::atomic<unsigned> generation_{0};
   alignas(64) std::atomic<std::size_t> busy_{0};
   alignas(64) std::atomic<bool> stop_{false};
+  Vigil begun_, ended_;
   Call call_ = nullptr;
   void* context_ = nullptr;
   bool bound_ = false;

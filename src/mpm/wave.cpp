@@ -8,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace vitrum::mpm {
@@ -51,7 +50,7 @@ class alignas(64) Workload {
     const std::lock_guard lock(mutex_);
     if (first_ == ready_.size()) ready_.clear(), first_ = 0;
     if (!prolong(more)) ready_.push_back(more);
-    some_.store(true, std::memory_order_relaxed);
+    some_.store(true);  // in sequential order, for those who sleep (vigil.hpp)
   }
   /// For the thread itself: it goes on with what it has just made ready, a line or as much of a long one as
   /// leaves others something to help with. line_of, by piece.
@@ -59,11 +58,12 @@ class alignas(64) Workload {
   /// For those who help: what lies farthest before the thread.
   std::optional<Ready> oldest(const std::vector<std::size_t>& line_of) { return take(false, 4, line_of); }
 
+  /// Whether there is something before the thread.
+  bool has_some() const { return some_.load(); }
+
   /// Pieces that the thread has taken through their last stage.
-  std::size_t over() const { return over_.load(std::memory_order_acquire); }
-  void count_over(std::size_t more) {
-    over_.store(over_.load(std::memory_order_relaxed) + more, std::memory_order_release);
-  }
+  std::size_t over() const { return over_.load(); }
+  void count_over(std::size_t more) { over_.store(over_.load(std::memory_order_relaxed) + more); }
 
   /// What the pieces of the share have cost, s; who has taken them does not matter.
   double seconds() const { return seconds_.load(std::memory_order_relaxed); }
@@ -139,11 +139,14 @@ struct Wave::Shared {
   std::vector<Workload> workloads;   // by thread
   std::vector<double> seconds;       // by thread, for its share
   std::atomic<bool> stopped{false};
+  std::chrono::microseconds patience{0};  // awake
+  Vigil vigil;
 
   void prepare(std::size_t threads);
   void work(std::size_t thread);
   void take(const Ready& pieces, std::size_t thread);
   bool help(std::size_t thread);
+  bool some_are_ready() const;
   bool is_over() const;
   void finish(const Ready& pieces, std::size_t thread);
   void make_ready(std::size_t stage, std::size_t line);
@@ -182,8 +185,10 @@ void Wave::Shared::take(const Ready& pieces, std::size_t thread) {
   try {
     for (std::size_t piece = pieces.begin; piece < pieces.end; ++piece) call(context, pieces.stage, piece);
     finish(pieces, thread);  // which may want memory
+    vigil.changed();
   } catch (...) {
     stopped = true;
+    vigil.changed();
     throw;
   }
 }
@@ -200,6 +205,10 @@ bool Wave::Shared::help(std::size_t thread) {
     return true;
   }
   return false;
+}
+
+bool Wave::Shared::some_are_ready() const {
+  return std::ranges::any_of(workloads, &Workload::has_some);
 }
 
 bool Wave::Shared::is_over() const {
@@ -249,7 +258,7 @@ void Wave::Shared::begin_lines(std::size_t thread) {
 void Wave::Shared::work(std::size_t thread) {
   // Who helps at once pays more for a piece's data, which are in another cache, than is saved, and the thread
   // that owns them pays again; who never does leaves all to wait for one that is held up.
-  constexpr double patience = 15e-6;      // s
+  constexpr std::chrono::microseconds before_help(15);
   constexpr unsigned looks_at_once = 64;  // some 5 ns each, a look at the clock takes longer
   Workload& own = workloads[thread];
   Clock::time_point since = Clock::now();  // the thread has been at its share, or has waited
@@ -269,8 +278,10 @@ void Wave::Shared::work(std::size_t thread) {
     }
     if (is_over()) return;
     if (++looks % looks_at_once != 0) continue;
-    if (seconds_since(since) < patience || help(thread)) continue;
-    std::this_thread::yield();  // another process may want the processor
+    const Clock::duration waited = Clock::now() - since;
+    if (waited < before_help || help(thread) || waited < patience) continue;
+    // The last pieces lie with a thread that has lost the processor.
+    vigil.sleep([this] { return stopped.load() || is_over() || some_are_ready(); });
   }
 }
 
@@ -287,6 +298,7 @@ void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines, st
   shared.lines = lines, shared.shares = shares_.bounds(), shared.count = lines.size() - 1;
   shared.stages = stages, shared.at_once = std::min(at_once, shared.count);
   shared.call = call, shared.context = context;
+  shared.patience = team.patience();
   shared.prepare(static_cast<std::size_t>(team.size()));
   team.on_each_thread([&shared](std::size_t thread) { shared.work(thread); });
   shared.seconds.clear();
