@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <tuple>
 
 #include "scene/input_error.hpp"
@@ -24,6 +25,26 @@ std::string sentence(std::string_view key, std::string_view fact) {
 void Diagnostics::note_override(const std::string& path, std::size_t number) {
   std::erase_if(overrides_, [&](const auto& entry) { return is_at_or_below(entry.first, path); });
   if (number != 0) overrides_[path] = number;
+}
+
+void Diagnostics::note_removal(const std::string& path, std::size_t index) {
+  std::map<std::string, std::size_t, std::less<>> moved;
+  const std::string prefix = path + '.';
+  for (const auto& [key, number] : overrides_) {
+    std::string_view rest = key;
+    std::size_t item = 0;
+    const char* end = key.data() + key.size();
+    if (rest.starts_with(prefix)) {
+      const auto [behind, error] = std::from_chars(key.data() + prefix.size(), end, item);
+      if (error == std::errc{} && item == index) continue;
+      if (error == std::errc{} && item > index) {
+        moved[fmt::format("{}{}{}", prefix, item - 1, std::string_view(behind, end))] = number;
+        continue;
+      }
+    }
+    moved[key] = number;
+  }
+  overrides_ = std::move(moved);
 }
 
 std::size_t Diagnostics::override_at(std::string_view path) const {

@@ -21,6 +21,9 @@ class Diagnostics {
   /// there.
   void note_override(const std::string& path, std::size_t number);
 
+  /// Item `index` of the list at `path` is no more: the ones behind it have moved up.
+  void note_removal(const std::string& path, std::size_t index);
+
   /// Where the value or table at `origin` comes from: `FILE:LINE:COLUMN`, `where` when it is the file; or
   /// `--set N`.
   std::string place(std::string_view origin, const toml::source_position& where) const;

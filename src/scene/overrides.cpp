@@ -1,6 +1,7 @@
 #include "scene/overrides.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,12 +10,17 @@
 #include <vector>
 
 #include "scene/key_depth.hpp"
+#include "scene/key_info.hpp"
 #include "scene/scene_keys.hpp"
+#include "scene/suggestion.hpp"
 #include "scene/toml_reader.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::scene {
 namespace {
+
+/// In place of a value: takes the key away. No TOML value, so that none can be meant instead.
+constexpr std::string_view removal = "none";
 
 /// A fault of the argument: what was found and expected at `key`.
 struct Refusal {
@@ -33,8 +39,14 @@ std::string joined(const std::vector<std::string>& keys, std::size_t count) {
   return path;
 }
 
+/// One part of a dotted key.
+struct KeyPart {
+  std::string text;
+  bool in_quotes;  ///< then it is a name, even of digits
+};
+
 struct Assignment {
-  std::vector<std::string> keys;
+  std::vector<KeyPart> parts;
   std::string_view value;
 };
 
@@ -54,7 +66,7 @@ std::optional<Assignment> split(std::string_view text) {
       const bool in_quotes =
           key.size() >= 2 && key.front() == key.back() && (key.front() == '"' || key.front() == '\'');
       if (key.empty()) return std::nullopt;
-      result.keys.emplace_back(in_quotes ? key.substr(1, key.size() - 2) : key);
+      result.parts.push_back({std::string(in_quotes ? key.substr(1, key.size() - 2) : key), in_quotes});
       begin = i + 1;
       if (c == '=') {
         result.value = trimmed(text.substr(begin));
@@ -86,20 +98,67 @@ toml::table parse_value(const Assignment& assignment, const std::string& path) {
   throw refusal;
 }
 
+bool to_index(const std::string& key, std::size_t& index) {
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  return error == std::errc{} && end == key.data() + key.size();
+}
+
 /// The item of `list` that `keys[depth]` names.
 std::size_t item_index(const toml::array& list, const std::vector<std::string>& keys, std::size_t depth) {
   const std::string& key = keys[depth];
   std::size_t index = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (error == std::errc{} && end == key.data() + key.size() && index < list.size()) return index;
+  if (to_index(key, index) && index < list.size()) return index;
   const std::string range =
       list.empty() ? "the list is empty" : fmt::format("expected an index from 0 to {}", list.size() - 1);
   throw Refusal{joined(keys, depth + 1),
                 fmt::format("found index {} of a list of length {}, {}", key, list.size(), range)};
 }
 
-bool is_index(const std::string& key) {
+bool is_index(std::string_view key) {
   return std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The index, as a key, of the item with this `name` in a list of tables.
+std::string index_of(const std::string& name, const toml::array& list, const std::string& path) {
+  std::vector<std::string> names, indices;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const toml::table* item = list[i].as_table();
+    const std::optional<std::string> own =
+        item != nullptr ? (*item)["name"].value<std::string>() : std::nullopt;
+    if (own) names.push_back(*own);
+    if (own == name) indices.push_back(std::to_string(i));
+  }
+  if (names.empty()) return name;  // a wrong index
+  const std::string key = join_path(path, name);
+  if (indices.empty())
+    throw Refusal{key,
+                  with_suggestion(fmt::format("found no item of this name, expected one of {} or an index "
+                                              "from 0 to {}",
+                                              quoted_list(names), list.size() - 1),
+                                  name, names)};
+  if (indices.size() > 1)
+    throw Refusal{key, fmt::format("found {} items of this name, expected an index: one of {}",
+                                   indices.size(), fmt::join(indices, ", "))};
+  return indices.front();
+}
+
+/// The keys with indices in place of names, as far as the document goes.
+std::vector<std::string> with_indices(const toml::table& document, const std::vector<KeyPart>& parts) {
+  std::vector<std::string> keys;
+  const toml::node* node = &document;
+  for (const KeyPart& part : parts) {
+    const toml::array* list = node != nullptr ? node->as_array() : nullptr;
+    const bool by_name = list != nullptr && (part.in_quotes || !is_index(part.text));
+    keys.push_back(by_name ? index_of(part.text, *list, joined(keys, keys.size())) : part.text);
+    if (node == nullptr) continue;
+    const toml::table* table = node->as_table();
+    std::size_t index = 0;
+    if (list != nullptr)
+      node = to_index(keys.back(), index) ? list->get(index) : nullptr;
+    else
+      node = table != nullptr ? table->get(part.text) : nullptr;
+  }
+  return keys;
 }
 
 template <class Parent, class Where>
@@ -189,6 +248,28 @@ std::string assign(toml::table& document, const std::vector<std::string>& keys, 
   return joined(keys, place.depth + 1);
 }
 
+/// Takes away what the keys name; what follows in a list moves up.
+void remove(toml::table& document, const std::vector<std::string>& keys, std::size_t number,
+            Diagnostics& diagnostics) {
+  const Place place = find_place(document, keys);
+  if (toml::array* list = place.parent->as_array()) {
+    const std::size_t index = item_index(*list, keys, place.depth);
+    const std::string path = joined(keys, place.depth);
+    list->erase(list->cbegin() + static_cast<std::ptrdiff_t>(index));
+    diagnostics.note_removal(path, index);
+    if (list->empty() || !list->front().is_table()) diagnostics.note_override(path, number);
+    return;
+  }
+  toml::table* table = place.parent->as_table();
+  if (!table->erase(keys[place.depth])) {
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : *table) names.emplace_back(name.str());
+    throw Refusal{joined(keys, place.depth + 1),
+                  with_suggestion("found nothing that could be removed", keys[place.depth], names)};
+  }
+  diagnostics.note_override(joined(keys, keys.size()), number);
+}
+
 /// `step` and `courant`, `order` and `table` exclude each other, so setting one of them drops the other.
 void drop_alternative(toml::table& document, const std::string& path, Diagnostics& diagnostics) {
   std::string_view dropped;
@@ -212,16 +293,18 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
                              fmt::format("found {}, expected KEY=VALUE with a dotted KEY", toml_quoted(text)));
     return;
   }
-  if (assignment->keys.size() > most_key_parts) {
+  if (assignment->parts.size() > most_key_parts) {
     diagnostics.add_override(
         number, "",
-        fmt::format("found a key of {} parts, expected the keys of a scene", assignment->keys.size()));
+        fmt::format("found a key of {} parts, expected the keys of a scene", assignment->parts.size()));
     return;
   }
-  const std::string path = joined(assignment->keys, assignment->keys.size());
   try {
+    const std::vector<std::string> keys = with_indices(document, assignment->parts);
+    if (assignment->value == removal) return remove(document, keys, number, diagnostics);
+    const std::string path = joined(keys, keys.size());
     toml::table parsed = parse_value(*assignment, path);
-    diagnostics.note_override(assign(document, assignment->keys, *parsed.get("value")), number);
+    diagnostics.note_override(assign(document, keys, *parsed.get("value")), number);
     drop_alternative(document, path, diagnostics);
   } catch (const Refusal& refusal) {
     diagnostics.add_override(number, refusal.key, refusal.fact);

@@ -25,10 +25,17 @@ A scene is a TOML file. Everything is SI (m, s, kg, Pa); tension is positive; an
 values out of bounds are errors, all of a file at once, each with its line and column. Integers are taken where numbers are
 expected. A number is finite unless its row says that inf is admitted.
 
-Any key can be given on the command line, by its dotted path and as a TOML value, list items by index from 0:
-`--set time.end=1e-4`, `--set body.0.velocity.1=-800`, `--set 'integrator.scheme="musl"'`. Missing keys and tables are created,
-missing list items are not, except those of a list that has a default. The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant`
-and the other way round.
+Any key can be given on the command line, by its dotted path and as a TOML value: `--set time.end=1e-4`,
+`--set 'integrator.scheme="musl"'`. Items of a list go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800` and
+`--set body.cylinder.velocity.1=-800` (a name with dots, or of digits, in quotes: `--set 'body."2".velocity.1=-800'`). Missing keys and tables are created,
+missing list items are not, except those of a list that has a default.
+
+`none` in place of a value takes a key, a table or an item of a list away, as if the file did not have it: `--set material.glass.damage=none` is glass
+without damage, `--set boundary.0=none` leaves the first boundary out (those behind it move up). It is no TOML value, so that nothing else can be
+meant. What is not there cannot be removed.
+
+The arguments apply in order: the later wins. Setting `integrator.step` drops `integrator.courant` and the other way round. The resolved scene that `check`
+prints and results hold is the scene with all of them applied.
 
 A scene is refused (status 2), by `check` and by `run` before either takes memory, when the estimate of its peak memory is more than
 the machine, `ulimit -v` or the control group has to give; when its steps would take longer than a year at 4e6 particle-steps a

@@ -79,7 +79,7 @@ void TableReader::report(std::string_view key, std::string_view fact) const {
   if (node != nullptr)
     diagnostics_->add(path, node->source().begin, path, fact);
   else
-    diagnostics_->add(path_, table_->source().begin, path, fact);
+    diagnostics_->add(path, table_->source().begin, path, fact);
 }
 
 void TableReader::warn(std::string_view key, std::string_view fact) const {
