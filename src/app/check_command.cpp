@@ -16,6 +16,7 @@
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
+#include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/thread_count.hpp"
 #include "scene/toml_text.hpp"
@@ -99,7 +100,8 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
 }  // namespace
 
 int check_scene(const CheckOptions& options) {
-  const Scene scene = read_scene(options.scene, options.overrides);
+  const InputText& input = show_lines_of(read_input(options.scene), options.overrides);
+  const Scene scene = parse_scene(input.text, input.name, options.overrides);
   const SceneSize size = size_of(scene);
   require_memory(scene, size);
   const System system = build_system(scene, 1);
@@ -115,8 +117,8 @@ int check_scene(const CheckOptions& options) {
     show(facts.dump(2) + '\n');
     return exit_done;
   }
-  for (const std::string& w : warned) tell("warning: {}\n", w);
-  show(readable(options.scene, scene, system, facts, size, work, threads) + '\n' + resolved_toml(scene));
+  for (const std::string& w : warned) warn(w);
+  show(readable(input.name, scene, system, facts, size, work, threads) + '\n' + resolved_toml(scene));
   return exit_done;
 }
 

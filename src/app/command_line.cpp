@@ -10,6 +10,7 @@
 #include "app/messages.hpp"
 #include "app/point_command.hpp"
 #include "app/run_command.hpp"
+#include "app/usage.hpp"
 #include "mpm/computation_error.hpp"
 #include "output/compare.hpp"
 #include "output/info.hpp"
@@ -17,7 +18,6 @@
 #include "output/reference_page.hpp"
 #include "scene/input_error.hpp"
 #include "scene/reference_page.hpp"
-#include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -40,12 +40,7 @@ constexpr const char* out_of_memory =
   std::abort();
 }
 
-/// One fact a line on standard error: names of files may hold ends of lines.
-void complain(std::string_view message) {
-  tell("error: {}\n", scene::single_line(message));
-}
-
-int complain(const std::exception& error, int status) {
+int failed(const std::exception& error, int status) {
   complain(error.what());
   return status;
 }
@@ -58,14 +53,14 @@ int guarded(Command&& command) {
     for (const std::string& message : error.messages()) complain(message);
     return exit_input;
   } catch (const ComputationError& error) {
-    return complain(error, exit_computation);
+    return failed(error, exit_computation);
   } catch (const FileError& error) {
-    return complain(error, exit_file);
+    return failed(error, exit_file);
   } catch (const std::bad_alloc&) {
     std::fputs(out_of_memory, stderr);  // formatting might want memory
     return exit_computation;
   } catch (const std::exception& error) {
-    return complain(error, exit_computation);
+    return failed(error, exit_computation);
   }
 }
 
@@ -82,12 +77,14 @@ int obey(int argc, char** argv) {
   program.add_flag("--version", version, "versions of vitrum and of the libraries it is built with");
 
   RunOptions run;
+  run.program = argv[0];
   run.command = whole_command(argc, argv);
   const auto add_scene = [](CLI::App& command, std::string& scene, std::vector<std::string>& overrides) {
-    command.add_option("SCENE", scene, "scene file (TOML)")->required();
+    command.add_option("SCENE", scene, "scene file (TOML); check: - is standard input")->required();
     command
         .add_option("--set", overrides,
-                    "override a key of the scene: a.b.c=VALUE (a TOML value; list items by index)")
+                    "override a key: a.b.c=VALUE (a TOML value; none takes the key away; list items by "
+                    "index or name)")
         ->take_all()
         ->allow_extra_args(false);
   };
@@ -109,8 +106,8 @@ int obey(int argc, char** argv) {
 
   PointOptions point;
   CLI::App& point_command = *program.add_subcommand("point", "drive one material point along a strain path");
-  point_command.add_option("POINT", point.file, "point file (TOML)")->required();
-  point_command.add_option("--set", point.overrides, "override a key: a.b.c=VALUE")
+  point_command.add_option("POINT", point.file, "point file (TOML); - is standard input")->required();
+  point_command.add_option("--set", point.overrides, "override a key: a.b.c=VALUE (as of run)")
       ->take_all()
       ->allow_extra_args(false);
   point_command.add_option("--out", point.out, "CSV file (default: standard output)");
@@ -132,11 +129,14 @@ int obey(int argc, char** argv) {
       *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
   reference_command.add_flag("--result", result_page, "the result reference instead");
 
+  for (CLI::App* command : program.get_subcommands({})) command->footer(examples_of(command->get_name()));
+  program.footer(examples_of(""));
+
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    complain(fmt::format("{} (see vitrum --help)", error.what()));
+    complain(usage_fault(program, error.what()));
     return exit_input;
   }
   if (run_command) return run_scene(run);

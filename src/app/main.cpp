@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     show("");  // some of what was printed reaches its file only now: the disk may be full
   } catch (const vitrum::FileError& error) {
     if (status == exit_done) {
-      tell("error: {}\n", error.what());
+      complain(error.what());
       return exit_file;
     }
   }

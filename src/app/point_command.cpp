@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/messages.hpp"
 #include "app/point_path.hpp"
+#include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
 
 namespace vitrum::app {
@@ -60,8 +61,9 @@ std::string row(const Material& material, double time, const SymmetricTensor& e,
 }  // namespace
 
 int drive_point(const PointOptions& options) {
-  const PointScene scene = read_point(options.file, options.overrides);
-  for (const std::string& w : scene.warnings) tell("warning: {}\n", w);
+  const InputText& input = show_lines_of(read_input(options.file), options.overrides);
+  const PointScene scene = parse_point(input.text, input.name, options.overrides);
+  for (const std::string& w : scene.warnings) warn(w);
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);
   Csv csv(options.out);
   csv.line(header(*material));

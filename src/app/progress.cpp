@@ -1,52 +1,48 @@
 #include "app/progress.hpp"
 
-#include <unistd.h>
-
-#include <array>
-#include <string>
-
 #include "app/messages.hpp"
+#include "app/progress_line.hpp"
+#include "app/terminal.hpp"
 
 namespace vitrum::app {
 
 Progress::Progress(double start, double end, const char* energy_unit, bool quiet)
     : start_(start),
       end_(end),
+      first_time_(start),
       energy_unit_(energy_unit),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      draws_(!quiet && on_terminal()),
+      tells_(!quiet && !draws_),
       begun_(Clock::now()),
-      last_(begun_) {
-  first_time_ = start;
+      last_(begun_) {}
+
+void Progress::begin(double time) {
+  first_time_ = time;
+  begun_ = last_ = Clock::now();
 }
 
-void Progress::step(double time, double step, const IntegratorCounters& c) {
-  if (quiet_ || !terminal_ || ++calls_ % 64 != 0) return;
-  const Clock::time_point now = Clock::now();
-  if (now - last_ < std::chrono::milliseconds(200)) return;
-  last_ = now;
+void Progress::draw(double time, double step, const IntegratorCounters& c, const EnergyTotals& energy) {
+  last_ = Clock::now();
   drawn_ = true;
-  const double part = (time - start_) / (end_ - start_), computed = (time - first_time_) / (end_ - start_);
-  const double seconds = std::chrono::duration<double>(now - begun_).count();
-  const double left = computed > 0.0 ? seconds / computed * (1.0 - part) : 0.0;
-  const auto filled = static_cast<std::size_t>(part * 30.0);
-  constexpr std::array limits{"fixed step", "stability", "accuracy", "output", "remap"};
-  const char* limit = limits[static_cast<std::size_t>(c.last_limit)];
+  const double seconds = std::chrono::duration<double>(last_ - begun_).count();
+  const double left = time > first_time_ ? seconds * (end_ - time) / (time - first_time_) : 0.0;
+  // Not into the last column, behind which some terminals begin another line; and the cursor goes back: where
+  // a window that becomes narrower breaks the line, it stays with the first part, and all of it is cleared.
+  const std::size_t columns = terminal_columns() - 1;
   tell(
-      "\r[{:<30}] {:3.0f} %  t = {:.2f} us  dt = {:.4f} us  {} steps, {} rejected  limit: {}  {:.0f} s left ",
-      std::string(std::min<std::size_t>(filled, 30), '#'), 100.0 * part, 1e6 * time, 1e6 * step, c.steps,
-      c.rejected, limit, left);
+      "\r{}\033[J\r",
+      progress_line({(time - start_) / (end_ - start_), left, time, step, c, energy, energy_unit_}, columns));
 }
 
 void Progress::output(double time, const IntegratorCounters& c, const EnergyTotals& e) {
-  if (quiet_ || terminal_) return;
+  if (!tells_) return;
   tell("t = {:.4g} us  steps {}  rejected {}  kinetic {:.4g} {}  elastic {:.4g} {}  residual {:+.2f} %\n",
        1e6 * time, c.steps, c.rejected, e.kinetic, energy_unit_, e.elastic, energy_unit_,
        100.0 * e.relative_residual());
 }
 
 void Progress::finish() {
-  if (drawn_) tell("\r\033[K");
+  if (drawn_) tell("\r\033[J");
   drawn_ = false;
 }
 

@@ -6,26 +6,30 @@
 
 namespace vitrum::app {
 
-/// Tells how a run gets on: a bar on a terminal, otherwise a line per output. All on standard error.
+/// Tells how a run gets on: a line that is drawn anew on a terminal, otherwise a line per output. All on
+/// standard error.
 class Progress {
  public:
   /// energy_unit: "J" or "J/m"; must outlive the object.
   Progress(double start, double end, const char* energy_unit, bool quiet);
 
-  /// After a step; looks at the clock only now and then.
-  void step(double time, double step, const IntegratorCounters& counters);
+  /// When the run starts or goes on, at this time of the scene.
+  void begin(double time);
+  /// Whether it is time to draw; to be asked after every step.
+  bool is_due() const { return draws_ && Clock::now() - last_ >= pause; }
+  /// Draws the line, as wide as the terminal is now.
+  void draw(double time, double step, const IntegratorCounters& counters, const EnergyTotals& energy);
   /// After an output.
   void output(double time, const IntegratorCounters& counters, const EnergyTotals& energy);
-  /// Clears the bar.
+  /// Clears the line.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
-  double start_, end_;
+  static constexpr std::chrono::milliseconds pause{200};
+  double start_, end_, first_time_;
   const char* energy_unit_;
-  bool quiet_, terminal_, drawn_ = false;
-  unsigned calls_ = 0;
-  double first_time_ = 0.0;
+  bool draws_, tells_, drawn_ = false;
   Clock::time_point begun_, last_;
 };
 

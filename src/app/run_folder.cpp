@@ -58,7 +58,7 @@ output::FolderLock claim_folder(const RunOptions& options) {
     require_checkpoint(folder);
   output::FolderLock lock(folder);
   if (!lock.locked())
-    tell("warning: {}: this file system has no locks; nothing keeps a second run out\n", folder.string());
+    warn(fmt::format("{}: this file system has no locks; nothing keeps a second run out", folder.string()));
   if (options.resume) {
     require_checkpoint(folder);
     output::remove_unfinished(folder);

@@ -50,6 +50,7 @@ int Simulation::run() {
 }
 
 int Simulation::run_to_end() {
+  progress_.begin(system_.time);
   while (!ended()) {
     const Schedule::Target target = schedule_.next(state_.outputs, state_.checkpoints);
     const bool reached = advance_to(target.time);
@@ -69,9 +70,8 @@ int Simulation::run_to_end() {
     if (const int signal = caught_signal()) {
       write_checkpoint();
       return finish(output::RunStatus::interrupted,
-                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with the same "
-                                "command and --resume, folder {}",
-                                signal, system_.time, directory_.string()),
+                    fmt::format("signal {}: checkpoint written at t = {:.6e} s; continue with `{}`", signal,
+                                system_.time, resuming_command(options_)),
                     128 + signal);
     }
   }
@@ -85,10 +85,8 @@ int Simulation::give_up(const std::string& cause) {
   std::string message = fmt::format("t = {:.6e} s: {}", system_.time, cause);
   try {
     write_checkpoint();
-    message += fmt::format(
-        "; checkpoint written: when the cause is mended, continue with the same command and "
-        "--resume, folder {}",
-        directory_.string());
+    message += fmt::format("; checkpoint written: when the cause is mended, continue with `{}`",
+                           resuming_command(options_));
   } catch (const FileError& error) {
     message += fmt::format("; nor could a checkpoint be written: {}", error.what());
   }
@@ -144,7 +142,7 @@ bool Simulation::step_done(System& system, double step) {
     unwritten_ = error.what();  // the integrator must be left in order
     return false;
   }
-  progress_.step(system.time, step, integrator_->state().counters);
+  if (progress_.is_due()) progress_.draw(system.time, step, integrator_->state().counters, shown_energy());
   return caught_signal() == 0;
 }
 

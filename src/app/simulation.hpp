@@ -36,6 +36,7 @@ class Simulation final : private StepObserver {
   bool step_done(System& system, double step) override;
   void start();
   void resume();
+  [[noreturn]] void refuse_scene(const output::Checkpoint& checkpoint) const;
   int run_to_end();
   int give_up(const std::string& cause);
   bool ended() const;

@@ -6,6 +6,7 @@
 #include "output/particle_fields.hpp"
 #include "output/xdmf.hpp"
 #include "scene/input_error.hpp"
+#include "scene/write_scene.hpp"
 
 namespace vitrum::app {
 
@@ -100,6 +101,7 @@ void Simulation::write_checkpoint() {
   state_.coasting.clear();
   for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
   store(state_, checkpoint);
+  checkpoint.texts = {{"scene", resolved_toml(scene_)}, {"command", resuming_command(options_)}};
   output::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
 }
 

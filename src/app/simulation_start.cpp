@@ -1,4 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "app/simulation.hpp"
 #include "mpm/coasting.hpp"
@@ -6,6 +9,7 @@
 #include "output/particle_fields.hpp"
 #include "output/xdmf.hpp"
 #include "scene/input_error.hpp"
+#include "scene/scene_differences.hpp"
 #include "scene/write_scene.hpp"
 
 namespace vitrum::app {
@@ -21,12 +25,24 @@ void Simulation::start() {
   if (schedule_.output_at_start()) write_output();
 }
 
+/// A command line says all that it computes: what a run was told by --set is not taken from its checkpoint.
+void Simulation::refuse_scene(const output::Checkpoint& checkpoint) const {
+  constexpr std::size_t shown = 3;
+  const std::vector<std::string> all =
+      scene_differences(resolved_toml(scene_), output::text_of(checkpoint, "scene"));
+  const std::vector<std::string> first(all.begin(), all.begin() + std::min(shown, all.size()));
+  throw InputError(
+      fmt::format("{}: found a checkpoint of another scene or of other --set values: {}{}; expected those of "
+                  "the run that "
+                  "it continues: `{}`",
+                  (directory_ / "checkpoint.h5").string(), fmt::join(first, "; "),
+                  all.size() > shown ? fmt::format("; and {} keys more", all.size() - shown) : "",
+                  output::text_of(checkpoint, "command")));
+}
+
 void Simulation::resume() {
   const output::Checkpoint checkpoint = output::read_checkpoint(directory_ / "checkpoint.h5");
-  if (checkpoint.scene_sha256 != provenance_.scene_sha256)
-    throw InputError(fmt::format(
-        "{}: found a checkpoint of another scene (or other --set values); expected the one of this scene",
-        (directory_ / "checkpoint.h5").string()));
+  if (checkpoint.scene_sha256 != provenance_.scene_sha256) refuse_scene(checkpoint);
   output::restore_bodies(checkpoint, system_.bodies);
   state_ = restored(checkpoint);
   system_.time = checkpoint.time;

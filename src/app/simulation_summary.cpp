@@ -77,17 +77,17 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
     output::write_summary(directory_ / "summary.json", s);
   } catch (const FileError& error) {
     if (status == output::RunStatus::complete) return give_up(error.what());
-    tell("error: {}\n", scene::single_line(error.what()));
+    complain(error.what());
   }
   try {
     if (!options_.quiet) show(summary_text(s));
   } catch (const FileError& error) {  // the results are in their files all the same
-    tell("error: {}\n", error.what());
+    complain(error.what());
     if (exit_status == exit_done) exit_status = exit_file;
   }
-  for (const std::string& w : found) tell("warning: {}\n", w);
-  if (status == output::RunStatus::failed) tell("error: {}\n", scene::single_line(message));
-  if (status == output::RunStatus::interrupted) tell("interrupted: {}\n", scene::single_line(message));
+  for (const std::string& w : found) warn(w);
+  if (status == output::RunStatus::failed) complain(message);
+  if (status == output::RunStatus::interrupted) tell_interrupted(message);
   return exit_status;
 }
 

@@ -24,6 +24,7 @@ struct Checkpoint {
   std::vector<BodyCheckpoint> bodies;
   std::map<std::string, std::vector<double>>
       numbers;  ///< state of anything else, by name (no '/' and not empty)
+  /// Scene: resolved, as scene_sha256 tells; command: what continues the run.
   std::map<std::string, std::string> texts;
 };
 
@@ -34,6 +35,9 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 /// Reads and validates. A file that is no checkpoint, truncated or altered by a single bit is refused with
 /// FileError before any of it is interpreted; so are columns of different lengths and unknown variables.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
+
+/// A text of a checkpoint. Throws FileError when it has none of this name.
+const std::string& text_of(const Checkpoint& checkpoint, const std::string& name);
 
 /// The checkpoint's view of bodies.
 std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies);

@@ -106,6 +106,12 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   return checkpoint;
 }
 
+const std::string& text_of(const Checkpoint& checkpoint, const std::string& name) {
+  const auto entry = checkpoint.texts.find(name);
+  if (entry == checkpoint.texts.end()) throw FileError(fmt::format("checkpoint: '{}' is missing", name));
+  return entry->second;
+}
+
 void restore_bodies(const Checkpoint& checkpoint, std::span<Body> bodies) {
   if (checkpoint.bodies.size() != bodies.size())
     differ("bodies", std::to_string(checkpoint.bodies.size()), std::to_string(bodies.size()));

@@ -47,7 +47,9 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
   is a checkpoint, a result with at least one output, or a summary that does not tell of a failure; so not when the run was killed or
   failed before its first output. Files of a run's names that no run wrote count as well; files of other names are neither looked at
   nor touched. The reason: a run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
-- `--resume` without a checkpoint is refused with status 4. It takes the scene and the `--set` values of the run that it continues.
+- `--resume` without a checkpoint is refused with status 4. It wants the scene and the `--set` values of the run that it continues: a command line
+  says all that it computes. Otherwise it is refused with status 2; the message names the keys that differ, and the command that continues the
+  run. A run that is interrupted prints that command, too.
 - A folder that is moved, removed, or cleared and taken by another run ends the run with status 4, which leaves the other's files alone.
 
 ## When something cannot be written
@@ -131,7 +133,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 
 ## `checkpoint.h5`
 
-The first 512 bytes hold the line `vitrum checkpoint 3 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
+The first 512 bytes hold the line `vitrum checkpoint 4 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
 `step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/numbers` and `/texts` with
 the state of everything else. It is made for `--resume` of the same version, not for analysis.
 )";

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
-
+#include "scene/input_text.hpp"
 #include "scene/key_depth.hpp"
 #include "scene/overrides.hpp"
 #include "scene/scene_keys.hpp"
@@ -15,34 +11,6 @@
 
 namespace vitrum {
 namespace {
-
-/// Bytes. Also what ends the reading of devices that never end.
-constexpr std::size_t largest_file = std::size_t{16} << 20;
-
-std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  // A name that leads nowhere is the user's mistake; everything else that goes wrong is the file system's.
-  if (status.type() == std::filesystem::file_type::not_found)
-    throw InputError(fmt::format("{}: found no such file, expected a TOML file", file.string()));
-  if (std::filesystem::is_directory(status))
-    throw InputError(fmt::format("{}: found a directory, expected a TOML file", file.string()));
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  std::array<char, 16384> piece{};
-  do {
-    stream.read(piece.data(), piece.size());
-    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
-  } while (stream && text.size() <= largest_file);
-  if (text.size() > largest_file)
-    throw InputError(
-        fmt::format("{}: found more than {} MB, expected a scene", file.string(), largest_file >> 20));
-  if (!stream.is_open() || stream.bad())
-    throw FileError(
-        fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
-  return text;
-}
 
 toml::table parse_document(std::string_view text, std::string_view name,
                            const std::vector<std::string>& overrides, scene::Diagnostics& diagnostics) {
@@ -118,11 +86,13 @@ PointScene parse_point(std::string_view text, std::string_view name,
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_scene(read_text(file), file.string(), overrides);
+  const InputText input = read_input(file.string());
+  return parse_scene(input.text, input.name, overrides);
 }
 
 PointScene read_point(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return parse_point(read_text(file), file.string(), overrides);
+  const InputText input = read_input(file.string());
+  return parse_point(input.text, input.name, overrides);
 }
 
 }  // namespace vitrum

@@ -47,9 +47,9 @@ class CommandLineTest(unittest.TestCase):
 
     def vitrum(self, *arguments, status=0, **options):
         """Runs the program to its end and checks its exit status (None: any); stdout and stderr as texts."""
+        given = {} if "input" in options else {"stdin": subprocess.DEVNULL}
         done = subprocess.run([program, *map(str, arguments)], text=True, encoding="utf-8", timeout=120, cwd=self.folder,
-                              stdin=subprocess.DEVNULL,
-                              **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
+                              **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **given, **options})
         if status is not None:
             self.assertEqual(done.returncode, status, f"{arguments}: {done.stderr}")
         return done

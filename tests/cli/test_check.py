@@ -61,7 +61,7 @@ class Check(CommandLineTest):
         for command in ("check", "run"):
             out = ("--out", self.folder / "out") if command == "run" else ()
             answer = self.vitrum(command, impact, *out, "--set", 'boundary=[{name="die", fix=["z"], box={min=[0, 0.0051], max=[1, 0.0054]}}]')
-            self.assertRegex(answer.stderr, r"warning: boundary\.0\.box: boundary 'die' holds no node: .* nearest is at z = 0\.005")
+            self.assertRegex(answer.stderr, r"warning: \S+:\d+:\d+: key .boundary\.0\.box.: boundary 'die' holds no node: .* nearest is at z = 0\.005")
         self.assertNotIn("holds no node", self.vitrum("check", impact).stderr)
 
     def test_nothing_is_written(self):

@@ -18,7 +18,7 @@ class Malformed(CommandLineTest):
         self.assertRegex(answer.stderr, expected)
         self.assertEqual(answer.stdout, "")
         for line in answer.stderr.splitlines():
-            self.assertRegex(line, "^(error|warning): ")
+            self.assertRegex(line, r"^((error|warning): | +\d* \| )")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_all(self):

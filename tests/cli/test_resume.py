@@ -1,9 +1,13 @@
 """SIGINT and SIGTERM, --resume, and checkpoints that must not be resumed from."""
 import hashlib
+import os
+import re
+import shutil
 import signal
+import subprocess
 import unittest
 
-from support import CommandLineTest, impact, overrides, plane_strain, read_summary
+from support import CommandLineTest, impact, overrides, plane_strain, program, read_summary
 
 # 5000 steps, so that there is time to interrupt.
 long = overrides(integrator__step=4e-9, output__every=2e-6)
@@ -35,7 +39,7 @@ class Signals(CommandLineTest):
                 whole = self.run_scene(f"whole {name}", *settings)
                 out = self.folder / f"out {name}"
                 message = self.interrupt(number, out, *settings)
-                self.assertRegex(message, r"interrupted: signal \d+: checkpoint written at t = \S+ s; continue with the same command and --resume")
+                self.assertRegex(message, r"interrupted: signal \d+: checkpoint written at t = \S+ s; continue with `.* run .*`")
                 summary = read_summary(out)
                 self.assertEqual(summary["status"], "interrupted")
                 self.assertLess(summary["time"], 20e-6)
@@ -50,6 +54,81 @@ class Signals(CommandLineTest):
         self.interrupt(signal.SIGINT, out, *long, "--resume")
         self.run_scene("out", *long, "--resume")
         self.assert_same_results(out, whole)
+
+
+class PrintedCommand(CommandLineTest):
+    """What an interrupted run prints is a command that a shell takes, and that ends with the results of a whole run."""
+
+    def interrupted(self, arguments, where, program=program):
+        process = subprocess.Popen([program, *map(str, arguments)], text=True, cwd=where, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.addCleanup(process.stderr.close)
+        self.wait_for_outputs(process, 3)
+        process.send_signal(signal.SIGINT)
+        message = process.stderr.read()
+        self.assertEqual(process.wait(), 130)
+        return re.search(r"^interrupted: .* continue with `(.*)`$", message, re.MULTILINE).group(1)
+
+    def obey(self, command, where, shell="sh"):
+        done = subprocess.run([shell, "-c", command], cwd=where, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, f"{command}: {done.stderr}")
+
+    def test_names_and_values_that_need_quotes(self):
+        whole = self.run_scene("whole", *long, "--set", "title=\"it's $HOME `x` \\\\ \"")
+        where = self.folder / "a folder with 'quotes' & $blanks"
+        where.mkdir()
+        shutil.copy(impact, where / "my plate; rm -f x.toml")
+        for n, out in enumerate(("out b/it's", '-da"sh', "grüße $(touch hit)", "~x*?")):
+            with self.subTest(out=out):
+                command = self.interrupted(["run", "my plate; rm -f x.toml", f"--out={out}", *long,
+                                            "--set", "title=\"it's $HOME `x` \\\\ \"", "--threads", 1 + n % 2], where)
+                self.obey(command, where)
+                self.assert_same_results(where / out, whole)
+        self.assertFalse((where / "hit").exists())
+
+    def test_control_characters(self):
+        """On one line all the same, for shells that know $'..'."""
+        whole = self.run_scene("whole", *long)
+        out = "two\nlines\tand 'more' \\n"
+        self.obey(self.interrupted(["run", impact, "--out", out, *long], self.folder), self.folder, shell="bash")
+        self.assert_same_results(self.folder / out, whole)
+
+    def test_interrupted_while_it_replaces_a_run(self):
+        """--force is part of the command that made the run, not of the one that goes on with it."""
+        whole = self.run_scene("whole", *long)
+        self.run_scene("out", *long)
+        command = self.interrupted(["run", impact, "--out", "out", *long, "--force"], self.folder)
+        self.assertNotIn("--force", command)
+        self.obey(command, self.folder)
+        self.assert_same_results(self.folder / "out", whole)
+
+    def test_default_folder_no_fields_and_twice(self):
+        whole = self.run_scene("whole", *long, "--no-fields")
+        command = self.interrupted(["run", impact, *long, "--no-fields"], self.folder)
+        process = subprocess.Popen(["sh", "-c", "exec " + command], text=True, cwd=self.folder, stderr=subprocess.PIPE,
+                                   stdout=subprocess.DEVNULL)
+        self.addCleanup(process.stderr.close)
+        self.wait_for_outputs(process, 2)
+        process.send_signal(signal.SIGINT)
+        self.assertIn(f"continue with `{command}`", process.stderr.read())
+        self.assertEqual(process.wait(), 130)
+        self.obey(command, self.folder)
+        self.assertEqual((self.folder / "out" / "impact" / "energy.csv").read_text(), (whole / "energy.csv").read_text())
+
+    def test_program_in_a_folder_with_a_blank(self):
+        (self.folder / "my programs").mkdir()
+        copy = self.folder / "my programs" / "vitrum it's"
+        os.symlink(program, copy)
+        self.obey(self.interrupted(["run", impact, "--out", "out", *long], self.folder, program=copy), self.folder)
+
+    def test_the_command_of_a_refused_resumption(self):
+        """Without the --set values of its run; what is printed continues it."""
+        whole = self.run_scene("whole", *long)
+        self.interrupted(["run", impact, "--out", "out put", *long], self.folder)
+        answer = self.vitrum("run", impact, "--out", "out put", "--resume", "--quiet", status=2)
+        self.assertRegex(answer.stderr, r"key 'integrator\.step': found 2e-08, expected 4e-09; expected those of the run that it continues: `.*`$")
+        self.obey(re.search(r"`(.*)`$", answer.stderr, re.MULTILINE).group(1), self.folder)
+        self.assert_same_results(self.folder / "out put", whole)
 
 
 class Resume(CommandLineTest):
@@ -76,7 +155,9 @@ class Resume(CommandLineTest):
 
     def test_another_scene(self):
         out = self.run_scene("out", *checkpoints)
-        self.assert_refused(out, 2, "checkpoint of another scene", *checkpoints, *overrides(body__1__velocity__1=-150.0))
+        self.assert_refused(out, 2, "checkpoint of another scene.*key 'body.1.velocity.1': found -150.0, expected -200.0",
+                            *checkpoints, *overrides(body__1__velocity__1=-150.0))
+        self.assert_refused(out, 2, "key 'output.checkpoint_every': found nothing, expected 4e-06")
         self.assert_refused(out, 2, "checkpoint of another scene", *checkpoints, scene=plane_strain)
 
     def test_fields_come_and_go(self):

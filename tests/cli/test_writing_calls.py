@@ -69,7 +69,7 @@ class WritingCalls(CommandLineTest):
         for out, message in self.fail_calls(errno.EIO):
             if message.startswith("error: t = "):
                 under_way += 1
-                self.assertIn("checkpoint written: when the cause is mended, continue with the same command and --resume", message)
+                self.assertIn("checkpoint written: when the cause is mended, continue with `", message)
                 self.assertEqual(read_summary(out)["status"], "failed")
         self.assertGreater(under_way, 20)
 

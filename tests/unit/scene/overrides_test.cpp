@@ -1,4 +1,6 @@
 #include "malformed_input.hpp"
+#include "scene/scene_differences.hpp"
+#include "scene/write_scene.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
@@ -103,6 +105,68 @@ TEST_CASE("Overrides (--set): arguments that cannot be applied", "[scene][overri
   require_fault({"time.end="}, "--set 1: key 'time.end': found nothing", "a TOML value");
   require_fault({"time.end=1\n[body]"}, "--set 1: key 'time.end': ", "a TOML value");
   require_fault({"time.end=1 2"}, "--set 1: key 'time.end': ", "found 1 2");
+}
+
+TEST_CASE("Overrides (--set): items of a list by their names", "[scene][overrides]") {
+  const Scene named = parse_scene(scene_text, "s.toml");
+  const std::string first = named.bodies[0].name, second = named.bodies[1].name;
+  CHECK(scene_with({"body." + second + ".velocity.1=-800"}).bodies[1].velocity[1] == -800.0);
+  CHECK(scene_with({"body.\"" + first + "\".velocity=[1, 2]"}).bodies[0].velocity == Vector2{1.0, 2.0});
+  // A name that the command line itself has given; one of digits, in quotes; one with a dot.
+  const Scene renamed = scene_with({"body.0.name=\"1\"", "body.\"1\".velocity.0=3", "body.1.velocity.0=4",
+                                    "body.1.name=\"a.b\"", "body.\"a.b\".velocity.1=5"});
+  CHECK(renamed.bodies[0].velocity[0] == 3.0);
+  CHECK(renamed.bodies[1].velocity == Vector2{4.0, 5.0});
+  require_fault({"body." + first + "x.velocity.1=1"},
+                "--set 1: key 'body." + first + "x': ", "did you mean '" + first + "'?");
+  require_fault({"body.\"0\".velocity.1=1"}, "--set 1: key 'body.0': ", "found no item of this name");
+  require_fault({"body." + second + ".velocity.1=true"}, "--set 1: key 'body.1.velocity", "found true");
+  const auto ambiguous = faults_with({"body.1.name=\"" + first + "\"", "body." + first + ".velocity.1=1"});
+  REQUIRE(ambiguous.size() == 2);
+  CHECK(ambiguous[1].find("found 2 items of this name, expected an index: one of 0, 1") != std::string::npos);
+}
+
+TEST_CASE("Overrides (--set): none takes keys, tables and items away", "[scene][overrides]") {
+  REQUIRE(parse_scene(scene_text, "s.toml").materials[0].damage);
+  CHECK_FALSE(scene_with({"material.glass.damage=none"}).materials[0].damage);
+  // The later argument wins, and a default comes back.
+  CHECK(scene_with({"body.1.velocity=none"}).bodies[1].velocity == Vector2{0.0, 0.0});
+  CHECK(scene_with({"integrator.step=none", "integrator.step=1e-8"}).integrator.step == 1e-8);
+  const Scene one = scene_with({"body.0=none", "body.0.velocity.1=-5"});
+  REQUIRE(one.bodies.size() == 1);
+  CHECK(one.bodies[0].name == parse_scene(scene_text, "s.toml").bodies[1].name);
+  CHECK(one.bodies[0].velocity[1] == -5.0);
+  // What is removed is as if the file did not have it.
+  const std::string removed = resolved_toml(scene_with({"material.glass.damage=none"}));
+  CHECK(removed.find("[material.glass.damage]") == std::string::npos);
+  CHECK(resolved_toml(parse_scene(removed, "r.toml")) == removed);
+}
+
+TEST_CASE("Overrides (--set): what none cannot take away", "[scene][overrides]") {
+  require_fault({"material.glass.damge=none"},
+                "--set 1: key 'material.glass.damge': ", "did you mean 'damage'?");
+  require_fault({"material.glas.damage=none"}, "--set 1: key 'material.glas': ", "did you mean 'glass'?");
+  require_fault({"body.7=none"}, "--set 1: key 'body.7': ", "length 2");
+  require_fault({"material.glass.young=none"},
+                "--set 1: key 'material.glass.young': ", "found nothing, expected");
+  require_fault({"body.0.box.min.1=none"}, "--set 1: key 'body.0.box.min': ", "expected a list of 2");
+  // Items behind one that is gone move up, and so does what is known of where their values come from.
+  require_fault({"body.1.velocity.1=true", "body.0=none"},
+                "--set 1: key 'body.0.velocity.1': ", "found true");
+  require_fault({"body.0.velocity.1=true", "body.0=none", "body.0.velocity.0=false"},
+                "--set 3: key 'body.0.velocity.0': ", "found false");
+}
+
+TEST_CASE("Two scenes differ in these keys", "[scene]") {
+  const auto resolved = [](const std::vector<std::string>& overrides) {
+    return resolved_toml(scene_with(overrides));
+  };
+  CHECK(scene_differences(resolved({}), resolved({})).empty());
+  CHECK(scene_differences(resolved({"time.end=2e-4"}), resolved({})) ==
+        std::vector<std::string>{"key 'time.end': found 2e-04, expected 1e-04"});
+  CHECK(scene_differences(resolved({"output.every=1e-5", "body.1.velocity.0=5"}), resolved({})).size() == 2);
+  CHECK(scene_differences(resolved({}), resolved({"output.every=1e-5"})) ==
+        std::vector<std::string>{"key 'output.every': found nothing, expected 1e-05"});
 }
 
 TEST_CASE("faults of file and command line are reported together", "[scene][overrides]") {
