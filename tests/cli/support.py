@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -138,6 +139,11 @@ class CommandLineTest(unittest.TestCase):
         self.assertEqual((one / "energy.csv").read_text(), (other / "energy.csv").read_text())
         self.assertEqual((one / "result.xdmf").read_text(), (other / "result.xdmf").read_text())
         self.assertEqual(comparable_summary(one), comparable_summary(other))
+
+
+def told(stderr):
+    """The messages on standard error, without the lines of the input that they show below themselves."""
+    return [line for line in stderr.splitlines() if not re.match(r" +\d* \| ", line)]
 
 
 def read_result(folder):

@@ -1,12 +1,11 @@
 """Paths: blanks, letters beyond ASCII, ends of lines, great lengths, links."""
 import json
 import os
-import shlex
 import shutil
 import subprocess
 import unittest
 
-from support import CommandLineTest, glass_point, here, impact, overrides, program, read_summary
+from support import CommandLineTest, glass_point, here, impact, overrides, program, read_summary, told
 
 
 class Places(CommandLineTest):
@@ -45,12 +44,13 @@ class Places(CommandLineTest):
         self.assertIn("two", self.vitrum("info", out).stdout)
         self.assertEqual(json.loads(self.vitrum("info", out, "--json").stdout)["file"], str(out / "result.h5"))
         command = read_summary(out)["provenance"]["command"]
-        self.assertEqual(shlex.split(command)[1:], ["run", str(scene), "--out", str(out)])
+        typed = subprocess.run(["bash", "-c", f"printf '%s\\0' {command}"], capture_output=True, check=True).stdout
+        self.assertEqual(typed.decode().split("\0")[1:-1], ["run", str(scene), "--out", str(out)])
         for status, arguments in ((2, ["run", scene, "--out", out]), (4, ["run", scene, "--out", out, "--resume"]),
                                   (2, ["check", folder / "missing"]), (4, ["run", scene, "--out", scene / "out"]),
                                   (3, ["run", scene, "--out", out, "--force", *overrides(integrator__step=3e-7)])):
-            errors = [line for line in self.vitrum(*arguments, "--quiet" if arguments[0] == "run" else "--json", status=status).stderr.splitlines()
-                      if not line.startswith("warning: ")]
+            answer = self.vitrum(*arguments, "--quiet" if arguments[0] == "run" else "--json", status=status)
+            errors = [line for line in told(answer.stderr) if not line.startswith("warning: ")]
             self.assertEqual(len(errors), 1, errors)
             self.assertTrue(errors[0].startswith("error: "))
 

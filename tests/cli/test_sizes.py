@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from support import CommandLineTest, glass_point, impact, overrides, plane_strain, program
+from support import CommandLineTest, glass_point, impact, overrides, plane_strain, program, told
 
 megabyte = 1 << 20
 
@@ -35,7 +35,7 @@ class AbsurdSizes(CommandLineTest):
         answer = self.vitrum(command, scene, *where, *arguments, status=2, **options)
         self.assertLess(time.monotonic() - begun, 30.0)
         self.assertEqual((answer.stdout, list(self.folder.iterdir())), ("", []))
-        self.assertRegex(answer.stderr.splitlines()[-1], "^error: ")
+        self.assertRegex(told(answer.stderr)[-1], "^error: ")
         return answer.stderr
 
     def test_memory(self):

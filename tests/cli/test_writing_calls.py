@@ -9,7 +9,7 @@ import shutil
 import signal
 import unittest
 
-from support import CommandLineTest, impact, overrides, preload, preloaded, read_summary
+from support import CommandLineTest, impact, overrides, preload, preloaded, read_summary, told
 
 settings = [*overrides(time__end=4e-6, integrator__step=1e-7, output__every=1e-6, output__checkpoint_every=2e-6,
                        output__fields='["velocity"]'), "--threads", "1"]
@@ -50,7 +50,7 @@ class WritingCalls(CommandLineTest):
             with self.subTest(call=number):
                 out, answer = self.run_with(None, FAULT=reason, FAULT_CALL=number, **fault)
                 self.assertIn(answer.returncode, (0, 4), answer.stderr)
-                errors = [line for line in answer.stderr.splitlines() if not line.startswith("warning: ")]
+                errors = [line for line in told(answer.stderr) if not line.startswith("warning: ")]
                 if answer.returncode == 0:
                     self.assertEqual(errors, [])  # what failed was a help to others: who holds the lock
                 else:
