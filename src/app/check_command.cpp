@@ -15,6 +15,7 @@
 #include "integrators/grid/error_scales.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
+#include "scene/choices.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
@@ -56,6 +57,7 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
           {"disk_bytes", disk_space_of(scene, system, true)},
           {"threads", threads},
           {"seconds", work.seconds},
+          {"seconds_most", most_seconds(scene, system, work, threads)},
           {"particle_steps_a_second", particle_steps_a_second},
           {"bodies", bodies},
           {"critical_step", critical.step},
@@ -83,6 +85,12 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
   text += fmt::format("# {}about {} on {} thread{}, at {:g} particle-steps a second and thread\n",
                       work.is_planned ? "" : "at least ", duration_text(work.seconds), threads,
                       threads == 1 ? "" : "s", particle_steps_a_second);
+  if (scene.constitutive.method != LocalMethod::closed_form)
+    text += fmt::format(
+        "#   while increments are elastic; about {} if none were (measured now with constitutive.method = "
+        "\"{}\")\n",
+        duration_text(facts["seconds_most"].get<double>()),
+        scene::name_of(scene::local_method_names, scene.constitutive.method));
   text += fmt::format(
       "# critical step {}{:.6g} s (body '{}')\n",
       scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",

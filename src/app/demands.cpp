@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/local_cost.hpp"
 #include "app/machine.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/grid_method.hpp"
@@ -103,9 +104,15 @@ Work work_of(const Scene& scene, const System& system, int threads) {
   Work work;
   work.steps = std::max(1.0, std::ceil((scene.end - scene.start) / longest - 1e-6));
   work.is_planned = step.has_value();
-  work.seconds = work.steps * evaluations_of_step(integrator) * static_cast<double>(system.particle_count()) /
-                 (particle_steps_a_second * threads);
+  work.evaluations = work.steps * evaluations_of_step(integrator);
+  work.seconds =
+      work.evaluations * static_cast<double>(system.particle_count()) / (particle_steps_a_second * threads);
   return work;
+}
+
+double most_seconds(const Scene& scene, const System& system, const Work& work, int threads) {
+  const double increment = (scene.end - scene.start) / work.evaluations;
+  return work.seconds + work.evaluations * costliest_evaluation(scene, system, increment) / threads;
 }
 
 void require_time(const Scene& scene, const System& system, const Work& work, int threads) {

@@ -11,7 +11,8 @@
 namespace vitrum::app {
 
 /// Particles whose increments a thread takes in a second, about (the reference case, closed form, release
-/// build: 3.4e6 to 9e6). Error-controlled local methods and Newton iterations take longer.
+/// build: 3.4e6 to 9e6). Newton iterations take longer, and so do error-controlled local methods where
+/// increments are not elastic.
 inline constexpr double particle_steps_a_second = 4.0e6;
 /// Beyond it a run is refused: no one would see its end.
 inline constexpr double longest_run = 365.25 * 86400.0;
@@ -27,12 +28,16 @@ std::string step_key(const IntegratorDefinition& integrator);
 
 /// What the time loop takes.
 struct Work {
-  double steps = 0.0;       ///< planned; adaptive methods: no fewer
-  bool is_planned = false;  ///< not just a lower bound
-  double seconds = 0.0;     ///< about
+  double steps = 0.0;        ///< planned; adaptive methods: no fewer
+  bool is_planned = false;   ///< not just a lower bound
+  double evaluations = 0.0;  ///< of all particles
+  double seconds = 0.0;      ///< about; with an error-controlled local method: while increments are elastic
 };
 /// threads: used.
 Work work_of(const Scene& scene, const System& system, int threads);
+
+/// The same if no increment is elastic (local_cost.hpp: measured now), s.
+double most_seconds(const Scene& scene, const System& system, const Work& work, int threads);
 
 /// Throws InputError when a run would take longer than longest_run.
 void require_time(const Scene& scene, const System& system, const Work& work, int threads);

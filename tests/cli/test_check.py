@@ -1,5 +1,6 @@
 """`vitrum check` of scenes that are valid."""
 import json
+import resource
 import tomllib
 import unittest
 
@@ -63,6 +64,21 @@ class Check(CommandLineTest):
             answer = self.vitrum(command, impact, *out, "--set", 'boundary=[{name="die", fix=["z"], box={min=[0, 0.0051], max=[1, 0.0054]}}]')
             self.assertRegex(answer.stderr, r"warning: \S+:\d+:\d+: key .boundary\.0\.box.: boundary 'die' holds no node: .* nearest is at z = 0\.005")
         self.assertNotIn("holds no node", self.vitrum("check", impact).stderr)
+
+    def test_error_controlled_local_methods_take_longer(self):
+        """What a run takes lies between the two figures; processor seconds, whatever else the machine does."""
+        for method, slower in (("closed-form", 1.0), ("substep", 3.0), ("cvode", 10.0)):
+            with self.subTest(method):
+                settings = overrides(constitutive__method=f'"{method}"')
+                facts = json.loads(self.vitrum("check", impact, *settings, "--json").stdout)
+                before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+                self.run_scene("out", *settings, *overrides(output__every="none"), "--threads", 1, "--force")
+                took = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+                self.assertGreaterEqual(facts["seconds_most"], slower * facts["seconds"])
+                self.assertGreater(took, 0.2 * facts["seconds"])
+                self.assertLess(took, 2.0 * facts["seconds_most"] + 0.1)
+                text = self.vitrum("check", impact, *settings).stdout
+                self.assertEqual("measured now" in text, method != "closed-form")
 
     def test_nothing_is_written(self):
         self.vitrum("check", impact)
