@@ -19,6 +19,7 @@
 #include "scene/grid_method.hpp"
 #include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
+#include "scene/shape_measures.hpp"
 #include "scene/thread_count.hpp"
 #include "scene/toml_text.hpp"
 #include "scene/write_scene.hpp"
@@ -38,11 +39,15 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
   using json = nlohmann::ordered_json;
   const double whole = system.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
   json bodies = json::object();
-  for (const Body& body : system.bodies) {
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const Body& body = system.bodies[n];
+    const ShapeMeasures exact = measures(scene.bodies[n].shape, scene.geometry);
     double mass = 0.0;
     for (const double m : body.particles.mass) mass += m * whole;
     bodies[body.name] = {{"particles", body.particles.size},
                          {"mass", mass},
+                         {"exact_mass", body.material->parameters().elastic.density * whole *
+                                            (system.axisymmetric ? exact.moment : exact.area)},
                          {"material", body.material->parameters().name},
                          {"wave_speed", body.material->wave_speed()}};
   }
@@ -74,11 +79,13 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
                      const nlohmann::ordered_json& facts, const SceneSize& size, const Work& work,
                      int threads) {
   std::string text = fmt::format("# {} is valid\n", scene::single_line(file));
+  const char* unit = system.axisymmetric ? "kg" : "kg/m";
   for (const auto& [name, body] : facts["bodies"].items())
-    text += fmt::format("# body '{}': {} particles, {:.6g} {}, material '{}', wave speed {:.5g} m/s\n", name,
-                        body["particles"].get<std::size_t>(), body["mass"].get<double>(),
-                        system.axisymmetric ? "kg" : "kg/m", body["material"].get<std::string>(),
-                        body["wave_speed"].get<double>());
+    text += fmt::format(
+        "# body '{}': {} particles of {:.6g} {} (exact: {:.6g} {}), material '{}', wave speed {:.5g} m/s\n",
+        name, body["particles"].get<std::size_t>(), body["mass"].get<double>(), unit,
+        body["exact_mass"].get<double>(), unit, body["material"].get<std::string>(),
+        body["wave_speed"].get<double>());
   text += fmt::format("# {} particles; a run takes about {} of memory ({} available) and {} of disk space\n",
                       system.particle_count(), bytes_text(size.memory), bytes_text(available_memory()),
                       bytes_text(disk_space_of(scene, system, true)));

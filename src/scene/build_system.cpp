@@ -60,13 +60,11 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
     throw InputError(
         fmt::format("{}: its shape reaches {:g} m from an axis of coordinates; expected less than {:g} m",
                     place, found, farthest));
-  std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side);
-  // A disk about a point of the axis stands for a sphere: what lies at r <= 0 is its mirror image.
-  if (axisymmetric) std::erase_if(seeds, [](const Seed& s) { return !(s.position[0] > 0.0); });
+  const std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side, scene.geometry);
   if (seeds.empty())
     throw InputError(fmt::format(
-        "{}: its shape holds no particle with cells of {} m and {} particles per cell; expected a "
-        "larger shape or a smaller space.cell",
+        "{}: its shape is smaller than a quarter of a particle's square with cells of {} m and {} particles "
+        "per cell; expected a larger shape or a smaller space.cell",
         place, scene.cell, definition.particles_per_cell));
   Body body{definition.name, std::move(material), {}, 0.5 * scene.cell / per_side};
   Particles& p = body.particles;

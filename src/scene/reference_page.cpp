@@ -62,7 +62,10 @@ std::array<Section, 16> scene_sections() {
       {"[output]", "What is written, and when.", keys::output()},
       {"[[body]]", "One table for each body, with exactly one shape.", keys::body()},
       {"Shape `box` of a body", "`min` is less than `max` in both components.", keys::box()},
-      {"Shape `disk` of a body", "In axisymmetric geometry a disk centred on the axis is a sphere.",
+      {"Shape `disk` of a body",
+       "In axisymmetric geometry a disk centred on the axis is a sphere, any other a torus about it. "
+       "Particles at the "
+       "rim of a disk, a ring or a polygon have the mass of their part of it.",
        keys::disk()},
       {"Shape `ring` of a body", "`inner` is less than `outer`.", keys::ring()},
       {"`perturbation` of a body",

@@ -5,7 +5,7 @@
 
 namespace vitrum {
 
-/// A particle to be: centre (m) and area of its square or rectangle (m^2).
+/// A particle to be: centroid (m) and area (m^2) of its square, its rectangle, or its part of the shape.
 struct Seed {
   Vector2 position;
   double area;
@@ -17,8 +17,11 @@ double most_seeds(const Shape& shape, double cell, int per_side);
 /// Largest coordinate, positive or negative, that a shape reaches, m.
 double reach(const Shape& shape);
 
-/// Fills a shape with particles, `per_side` x `per_side` per cell. A box is divided evenly from its own
-/// corner, so that its area is exact; other shapes take the points of the grid's own lattice that lie inside.
-std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side);
+/// Fills a shape with particles, `per_side` x `per_side` per cell, whose areas and first moments add up to
+/// the shape's. A box is divided evenly from its own corner. Other shapes take the squares of the grid's own
+/// lattice; where the shape's edge crosses one, its particle has the area of the part inside and stands at
+/// that part's centroid, and parts of less than a quarter of a square go to their neighbours. Axisymmetric:
+/// of what lies at r > 0. Nothing when a shape other than a box has less than a quarter of a square in all.
+std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side, Geometry geometry);
 
 }  // namespace vitrum

@@ -11,37 +11,50 @@ namespace {
 
 using std::numbers::pi;
 
-ShapeMeasures whole(const Box& b) {
+ShapeMeasures kept(const Box& b, bool) {
   const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1];
-  return {x * y, 2.0 * (x + y), std::min(x, y)};
+  return {x * y, x * y * 0.5 * (b.min[0] + b.max[0]), 2.0 * (x + y), std::min(x, y)};
 }
-ShapeMeasures whole(const Disk& d) {
-  return {pi * d.radius * d.radius, 2.0 * pi * d.radius, 2.0 * d.radius};
+
+/// half_plane: what lies at x > 0.
+ShapeMeasures kept(const Disk& d, bool half_plane) {
+  const double x = d.centre[0], r = d.radius;
+  if (!half_plane || x >= r) return {pi * r * r, pi * r * r * x, 2.0 * pi * r, 2.0 * r};
+  const double angle = pi - std::acos(x / r), half_chord = std::sqrt((r - x) * (r + x));
+  const double area = r * r * angle + x * half_chord;
+  return {area, area * x + 2.0 / 3.0 * half_chord * half_chord * half_chord, 2.0 * r * angle,
+          std::min(x + r, 2.0 * r)};
 }
-ShapeMeasures whole(const Ring& r) {
-  return {pi * (r.outer * r.outer - r.inner * r.inner), 2.0 * pi * (r.outer + r.inner), 2.0 * r.outer};
+
+ShapeMeasures kept(const Ring& ring, bool half_plane) {
+  const ShapeMeasures outer = kept(Disk{ring.centre, ring.outer}, half_plane),
+                      inner = kept(Disk{ring.centre, ring.inner}, half_plane);
+  return {outer.area - inner.area, outer.moment - inner.moment, outer.perimeter + inner.perimeter,
+          outer.width};
 }
-ShapeMeasures whole(const Polygon& p) {
-  ShapeMeasures m{0.0, 0.0, whole(bounds(p)).width};
+
+ShapeMeasures kept(const Polygon& p, bool) {
+  const Box around = bounds(p);
+  ShapeMeasures m{0.0, 0.0, 0.0, std::min(around.max[0] - around.min[0], around.max[1] - around.min[1])};
+  // From one of the vertices: far from the origin differences of products would be rounding.
+  const Vector2& from = p.vertices.front();
   for (std::size_t i = 0, j = p.vertices.size() - 1; i < p.vertices.size(); j = i++) {
-    const Vector2 &a = p.vertices[j], &b = p.vertices[i];
-    m.area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+    const Vector2 a{p.vertices[j][0] - from[0], p.vertices[j][1] - from[1]};
+    const Vector2 b{p.vertices[i][0] - from[0], p.vertices[i][1] - from[1]};
+    const double twice = a[0] * b[1] - b[0] * a[1];
+    m.area += 0.5 * twice;
+    m.moment += twice * (a[0] + b[0]) / 6.0;
     m.perimeter += std::hypot(b[0] - a[0], b[1] - a[1]);
   }
-  m.area = std::abs(m.area);
+  if (m.area < 0.0) m.area = -m.area, m.moment = -m.moment;
+  m.moment += m.area * from[0];
   return m;
 }
 
 }  // namespace
 
 ShapeMeasures measures(const Shape& shape, Geometry geometry) {
-  ShapeMeasures m = std::visit([](const auto& s) { return whole(s); }, shape);
-  const Box box = bounds(shape);
-  if (geometry == Geometry::axisymmetric && box.min[0] < 0.0) {
-    const double kept = box.max[0] / (box.max[0] - box.min[0]);
-    m.area *= kept, m.perimeter *= kept, m.width *= kept;
-  }
-  return m;
+  return std::visit([&](const auto& s) { return kept(s, geometry == Geometry::axisymmetric); }, shape);
 }
 
 }  // namespace vitrum

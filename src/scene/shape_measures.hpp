@@ -3,14 +3,15 @@
 
 namespace vitrum {
 
-/// Of the part of a shape that particles are made in.
+/// Of the part of a shape that particles are made in: axisymmetric, of what lies at r > 0. Exact but for the
+/// width.
 struct ShapeMeasures {
   double area;       ///< m^2
-  double perimeter;  ///< m
+  double moment;     ///< m^3, integral of the first coordinate: axisymmetric, the volume per radian
+  double perimeter;  ///< m, of the shape's edge
   double width;      ///< m, the shorter side of the box around it
 };
 
-/// Circles across the axis count with the share of their diameter that lies at r > 0.
 ShapeMeasures measures(const Shape& shape, Geometry geometry);
 
 }  // namespace vitrum

@@ -1,5 +1,6 @@
 """`vitrum check` of scenes that are valid."""
 import json
+import math
 import resource
 import tomllib
 import unittest
@@ -48,6 +49,18 @@ class Check(CommandLineTest):
         self.assertAlmostEqual(facts["step_to_critical"], facts["step"] / facts["critical_step"])
         self.assertIsInstance(facts["warnings"], list)
         self.assertEqual(tomllib.loads(facts["resolved"]), self.resolved(impact))
+
+    def test_mass_is_that_of_the_shape(self):
+        for shape, volume in (("disk={centre=[0,0.0071],radius=0.0009}", 4 / 3 * math.pi * 0.0009**3),
+                              ("disk={centre=[0,0.0113],radius=0.005}", 4 / 3 * math.pi * 0.005**3),
+                              ("ring={centre=[0.0052,0.0102],inner=0.0021,outer=0.0038}",
+                               2 * math.pi * 0.0052 * math.pi * (0.0038**2 - 0.0021**2)),
+                              ("polygon=[[0,0.0061],[0.0043,0.0061],[0,0.0124]]", math.pi / 3 * 0.0043**2 * 0.0063)):
+            for per_cell in (1, 4, 9, 16):
+                table = f"{{name='c',material='steel',{shape},particles_per_cell={per_cell}}}"
+                facts = json.loads(self.vitrum("check", impact, "--json", "--set", f"body.1={table}").stdout)["bodies"]["c"]
+                for mass in (facts["mass"], facts["exact_mass"]):
+                    self.assertAlmostEqual(mass / (7800 * volume), 1, delta=1e-6, msg=shape)
 
     def test_a_step_beyond_the_critical_one_is_warned_of(self):
         answer = self.vitrum("check", impact, *overrides(integrator__step=2e-7))

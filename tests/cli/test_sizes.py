@@ -58,7 +58,7 @@ class AbsurdSizes(CommandLineTest):
                          r"error: \S+\.toml:\d+:\d+: key 'body\.2\.disk': body 'far': its shape reaches 1e\+30 m .* expected less than 2e\+06 m")
         none = overrides(**{"body.1.disk.radius": 1e-9})
         self.assertRegex(self.refused("check", *none, scene=plane_strain),
-                         r"error: \S+\.toml:\d+:\d+: key 'body\.1\.disk': body 'disk': its shape holds no particle")
+                         r"error: \S+\.toml:\d+:\d+: key 'body\.1\.disk': body 'disk': its shape is smaller than a quarter of a particle")
 
     def test_time(self):
         for command in ("check", "run"):
