@@ -16,7 +16,8 @@ void ArkodeExplicit::prepare(System& system) {
   context_ = std::make_unique<sundials::Context>();
   particles_ = std::make_unique<ParticleSystem>(system, settings_.scales, settings_.tolerance,
                                                 settings_.table.oscillation_limit());
-  tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
+  if (!settings_.fixed_step)
+    tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
   sundials::ArkSettings ark;
   ark.fixed_step = settings_.fixed_step;
   if (settings_.longest_step) ark.longest_step = *settings_.longest_step;

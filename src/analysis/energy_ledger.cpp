@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mpm/transfer.hpp"
 
@@ -31,6 +32,8 @@ EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals) : t
   for (const mpm::Boundary& wall : system.grid.boundaries())
     speed = std::max(speed, std::hypot(wall.velocity[0], wall.velocity[1]));
   driving_ = 0.5 * mass * speed * speed;
+  const double falling = mass * std::hypot(system.gravity[0], system.gravity[1]) * system.cell;
+  totals_.rounding = std::numeric_limits<double>::epsilon() * (driving_ + falling);
 }
 
 EnergyLedger::EnergyLedger(const System& system) : EnergyLedger(system, EnergyTotals{}) {
@@ -48,6 +51,7 @@ void EnergyLedger::book(const System& system) {
   totals_.fracture += r.dissipated.fracture;
   totals_.snap_back += r.dissipated.snap_back;
   totals_.external += r.external_work;
+  totals_.largest_work = std::max(totals_.largest_work, std::abs(totals_.external));
   if (totals_.initial > 0.0)
     totals_.max_growth = std::max(totals_.max_growth, (r.kinetic + r.elastic) / totals_.initial);
 }
@@ -57,18 +61,18 @@ void EnergyLedger::refresh_kinetic(const System& system) {
 }
 
 double EnergyLedger::growth(double allowance) const {
-  const double available = totals_.initial + std::max(totals_.external, 0.0) + driving_ + allowance;
+  const double available =
+      totals_.initial + std::max(totals_.external, 0.0) + driving_ + totals_.rounding + allowance;
   const double present = totals_.kinetic + totals_.elastic;
-  // Relative to what rounding leaves of a scene at rest, everything is growth: nothing is compared with
-  // nothing.
-  return available > 1e-280 ? present / available : (std::isfinite(present) ? 1.0 : present);
+  return available > least_energy ? present / available : (std::isfinite(present) ? 1.0 : present);
 }
 
 EnergyTotals scaled(const EnergyTotals& t, double factor) {
   EnergyTotals s = t;
   for (double EnergyTotals::*member :
        {&EnergyTotals::initial, &EnergyTotals::kinetic, &EnergyTotals::elastic, &EnergyTotals::plastic,
-        &EnergyTotals::damage, &EnergyTotals::fracture, &EnergyTotals::snap_back, &EnergyTotals::external})
+        &EnergyTotals::damage, &EnergyTotals::fracture, &EnergyTotals::snap_back, &EnergyTotals::external,
+        &EnergyTotals::largest_work, &EnergyTotals::rounding})
     s.*member *= factor;
   return s;
 }

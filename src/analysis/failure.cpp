@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "analysis/fragments.hpp"
 #include "materials/damage.hpp"
@@ -152,20 +153,18 @@ FailureReport FailureAnalysis::report(const System& system, bool with_fragments)
   if (!with_fragments) return r;
   const std::vector<ConnectedPiece> pieces = connected_pieces(system);
   r.fragments = fragments(system, pieces);
-  for (const ConnectedPiece& piece : pieces)
-    if (piece.body == target_) {
-      r.perforated = perforated(system, piece.particles);
-      break;
-    }
+  r.perforated = perforated(system, pieces);
   return r;
 }
 
 /// A tenth of the projectile has passed the target's original far face by a cell (not just a splinter of it),
-/// and the target's largest piece no longer reaches into the column that the projectile came along.
+/// and the target's largest piece no longer reaches into the column that the projectile came along, or has
+/// less than a tenth of the target's mass: it is debris, then, and bars nothing.
 std::optional<bool> FailureAnalysis::perforated(const System& system,
-                                                const std::vector<std::size_t>& main_piece) const {
+                                                const std::vector<ConnectedPiece>& pieces) const {
   if (!projectile_ || !target_) return std::nullopt;
   const std::size_t along = direction_, across = 1 - direction_;
+  constexpr double substantial = 0.1;  // of a body's mass
   const Extent &target = extents_[*target_], &extent = extents_[*projectile_];
   const double far_face = sense_ < 0.0 ? target.min[along] : target.max[along];
   const Particles& projectile = system.bodies[*projectile_].particles;
@@ -174,11 +173,18 @@ std::optional<bool> FailureAnalysis::perforated(const System& system,
     mass += projectile.mass[i];
     if (sense_ * (projectile.position[along][i] - far_face) > system.cell) beyond += projectile.mass[i];
   }
-  if (beyond < 0.1 * mass) return false;
-  const auto& x = system.bodies[*target_].particles.position[across];
-  return std::none_of(main_piece.begin(), main_piece.end(), [&](std::size_t i) {
-    return x[i] > extent.min[across] + system.cell * 0.5 && x[i] < extent.max[across] - system.cell * 0.5;
-  });
+  if (beyond < substantial * mass) return false;
+  const Particles& p = system.bodies[*target_].particles;
+  const auto in_the_way = [&](std::size_t i) {
+    const double x = p.position[across][i];
+    return x > extent.min[across] + system.cell * 0.5 && x < extent.max[across] - system.cell * 0.5;
+  };
+  const double all = std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
+  const auto largest = std::ranges::find(pieces, *target_, &ConnectedPiece::body);
+  if (largest == pieces.end()) return true;
+  double left = 0.0;
+  for (const std::size_t i : largest->particles) left += p.mass[i];
+  return left < substantial * all || std::ranges::none_of(largest->particles, in_the_way);
 }
 
 }  // namespace vitrum

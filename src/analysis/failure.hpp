@@ -2,6 +2,7 @@
 #include <array>
 
 #include "analysis/failure_report.hpp"
+#include "analysis/fragments.hpp"
 #include "mpm/system.hpp"
 
 namespace vitrum {
@@ -25,7 +26,7 @@ class FailureAnalysis {
   void restore(std::vector<Memory> memory) { memory_ = std::move(memory); }
 
  private:
-  std::optional<bool> perforated(const System& system, const std::vector<std::size_t>& main_piece) const;
+  std::optional<bool> perforated(const System& system, const std::vector<ConnectedPiece>& pieces) const;
 
   /// Extent of a body at the start.
   struct Extent {

@@ -124,6 +124,7 @@ int check_scene(const CheckOptions& options) {
   output::select_fields(scene, output::materials_of(system.bodies));  // throws InputError
   const Work work = work_of(scene, system, threads);
   require_time(scene, system, work, threads);
+  require_clock(scene, system);
   const std::vector<std::string> warned = warnings(scene, system, threads);
   nlohmann::ordered_json facts = derived(scene, system, size, work, threads);
   if (options.json) {

@@ -126,6 +126,21 @@ void require_time(const Scene& scene, const System& system, const Work& work, in
                   particle_steps_a_second));
 }
 
+void require_clock(const Scene& scene, const System& system) {
+  constexpr double digits = 100.0;  // of the last place, in a step
+  const double farthest = std::max(std::abs(scene.start), std::abs(scene.end));
+  const double tick = std::nextafter(farthest, HUGE_VAL) - farthest;
+  const CriticalStep critical = critical_step_of(scene.integrator, system);
+  const double step = planned_step(scene.integrator, critical).value_or(critical.step);
+  if (step >= digits * tick) return;
+  throw InputError(
+      fmt::format("{}: found times up to {:g} s, which are {:.3g} s apart as numbers, and steps of {:.3g} s; "
+                  "expected times "
+                  "nearer to 0, so that a step is at least {:g} times as long",
+                  scene.at(std::abs(scene.start) > std::abs(scene.end) ? "time.start" : "time.end"), farthest,
+                  tick, step, digits));
+}
+
 double disk_space_of(const Scene& scene, const System& system, bool with_fields) {
   const std::vector<const Material*> materials = output::materials_of(system.bodies);
   const auto particles = static_cast<double>(system.particle_count());

@@ -42,6 +42,9 @@ double most_seconds(const Scene& scene, const System& system, const Work& work, 
 /// Throws InputError when a run would take longer than longest_run.
 void require_time(const Scene& scene, const System& system, const Work& work, int threads);
 
+/// Throws InputError when times are so far from 0 that their last digit is not small beside a step.
+void require_clock(const Scene& scene, const System& system);
+
 /// Bytes of the files that a run leaves, and of the shadows that it keeps beside them.
 double disk_space_of(const Scene& scene, const System& system, bool with_fields);
 

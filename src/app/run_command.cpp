@@ -40,6 +40,7 @@ int run_scene(const RunOptions& options) {
   System system = build_system(scene, options.threads);
   const int threads = system.team->size();
   require_time(scene, system, work_of(scene, system, threads), threads);
+  require_clock(scene, system);
   Warnings warned = warnings(scene, system, threads);
   for (const std::string& w : warned) warn(w);
   // Before the folder is made: wrong input leaves no trace.

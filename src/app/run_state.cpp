@@ -15,7 +15,7 @@ template <class State, class Visit>
 void visit_numbers(State& s, Visit&& visit) {
   auto& e = s.energy;
   visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.external,
-        e.max_growth);
+        e.max_growth, e.largest_work, e.rounding);
   auto& i = s.integrator;
   visit("integrator", i.segment_start, i.segment_steps, i.segment_done, i.counters.steps, i.counters.rejected,
         i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations,

@@ -94,12 +94,12 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
 /// What only the end of a run tells: an account that does not close.
 Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
   Warnings list;
-  constexpr double tolerated = 0.05;
   const double residual = s.energy.relative_residual();
-  if (s.energy.elastic < 0.0 || !(std::abs(residual) <= 1.0))
+  const EnergyAccount account = judge(s.energy, whole_ * integrator_->tolerated_energy(system_));
+  if (account == EnergyAccount::meaningless)
     list.push_back(fmt::format("the energy account has no meaning (residual {:.3g} %): the run has blown up",
                                100.0 * residual));
-  else if (!(std::abs(residual) <= tolerated))
+  else if (account == EnergyAccount::open)
     list.push_back(fmt::format(
         "the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
         residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),

@@ -8,6 +8,7 @@
 #include "app/demands.hpp"
 #include "scene/boundary_checks.hpp"
 #include "scene/grid_method.hpp"
+#include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -81,6 +82,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_scheme(scene, list);
   warn_of_long_phases(scene, system, critical, list);
   warn_of_snap_back(scene, list);
+  for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several
   return list;
 }
 

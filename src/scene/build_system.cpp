@@ -9,6 +9,7 @@
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/local_method.hpp"
+#include "scene/number_range.hpp"
 #include "scene/perturbation.hpp"
 #include "scene/seeding.hpp"
 #include "scene/thread_count.hpp"
@@ -95,6 +96,7 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
     for (std::size_t k = 0; k < 4; ++k) p.elastic_strain[k][i] = strains[k];
     p.identity[i] = static_cast<std::uint32_t>(i);
   }
+  require_range(scene, index, body);
   return body;
 }
 

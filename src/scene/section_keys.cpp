@@ -52,7 +52,7 @@ KeyTable space() {
       required(
           choice_key("geometry", geometry_names,
                      "coordinates (r, z) with the axis at r = 0, or (x, y) with no strain across the plane")),
-      required(number_key("cell", positive, "m", "side of the square grid cells; the grid is unbounded")),
+      required(number_key("cell", {1e-140, 1e140}, "m", "side of the square grid cells; the grid is unbounded")),
       defaulted(choice_key("shape_functions", shape_function_names, "`linear`: the hat functions of the original method"), "\"linear\""),
   };
   return keys;

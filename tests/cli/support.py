@@ -176,6 +176,7 @@ def comparable_summary(folder):
     summary = read_summary(folder)
     for key in ("wall_seconds", "provenance", "threads"):
         del summary[key]
+    summary["warnings"] = [line[max(line.find(": key '"), 0):] for line in summary["warnings"]]  # not the scene's name
     return summary
 
 

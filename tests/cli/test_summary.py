@@ -2,8 +2,9 @@
 import unittest
 
 import numpy as np
-from support import CommandLineTest, impact, overrides, plane_strain, read_csv, read_summary
+from support import CommandLineTest, here, impact, overrides, plane_strain, read_csv, read_summary
 
+pulverised = here / "scenes" / "pulverised.toml"
 number, integer, text, boolean, listing, anything = (float, int), int, str, bool, list, object
 nothing = type(None)
 
@@ -73,6 +74,13 @@ class Summary(CommandLineTest):
                     "max_opening", "max_opening_radius", "perforated"):
             self.assertIsNone(failure[key], key)
         self.assertEqual((failure["localised"], failure["separated"]), (0, 0))
+
+    def test_a_projectile_through_a_target_of_which_nothing_is_left(self):
+        failure = read_summary(self.run_scene("out", "--no-fields", scene=pulverised))["failure"]
+        self.assertNotIn("plate", [fragment["body"] for fragment in failure["fragments"]["list"]])
+        self.assertIs(failure["perforated"], True)
+        early = read_summary(self.run_scene("early", "--no-fields", *overrides(time__end=10e-6), scene=pulverised))
+        self.assertIs(early["failure"]["perforated"], False)
 
     def test_a_step_limited_by_stability(self):
         integrator = read_summary(self.run_scene("out", scene=plane_strain))["integrator"]

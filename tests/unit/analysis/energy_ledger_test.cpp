@@ -4,6 +4,7 @@
 #include "analysis/energy_ledger.hpp"
 #include "catch.hpp"
 #include "support/mpm_run.hpp"
+#include "support/random_states.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
@@ -80,4 +81,45 @@ TEST_CASE("A scene at rest has growth 1, and nothing hides a value that is not f
   s.record.kinetic = std::numeric_limits<double>::infinity();
   other.book(s);
   CHECK_FALSE(other.growth() <= 1.5);
+}
+
+TEST_CASE("Work that is taken back stays the scale of the residual", "[analysis]") {
+  MpmRun run(stressed("plane-strain", ""));
+  System& s = run.system;
+  EnergyLedger ledger(s);
+  for (const double work : {8.0, -7.0, -1.0 + 1e-9}) {  // a wall that comes and goes
+    s.record.kinetic = 0.0, s.record.elastic = 0.0;
+    s.record.dissipated = {};
+    s.record.external_work = work;
+    ledger.book(s);
+  }
+  s.record.kinetic = 0.01;
+  s.record.external_work = 0.0;
+  ledger.book(s);
+  CHECK(ledger.totals().relative_residual() == Approx(-0.01 / 8.0));
+  CHECK(judge(ledger.totals(), 0.0) == EnergyAccount::closes);
+}
+
+TEST_CASE("What an energy account says of its run does not depend on the unit of energy", "[analysis]") {
+  Random random(3);
+  int counts[3] = {};
+  for (int i = 0; i < 2000; ++i) {
+    EnergyTotals t;
+    t.initial = random.chance(0.2) ? 0.0 : random.logarithmic(1e-3, 1.0);
+    t.external = random.uniform(-0.3, 0.5), t.largest_work = std::max(std::abs(t.external), 0.1);
+    t.kinetic = random.uniform(0.0, 1.0);
+    const double error = (random.chance(0.5) ? 1.0 : -1.0) * t.scale() * random.logarithmic(1e-4, 10.0);
+    t.elastic = t.initial + t.external - t.kinetic - error;
+    if (random.chance(0.5)) t.plastic = t.elastic, t.elastic = -1e-13 * t.scale();  // negative by rounding
+    const EnergyAccount found = judge(t, 0.0);
+    ++counts[static_cast<int>(found)];
+    REQUIRE(judge(scaled(t, 1e-40), 0.0) == found);
+    REQUIRE(judge(scaled(t, 1e40), 0.0) == found);
+    // Less than a tolerance, nothing is wrong.
+    CHECK(judge(t, 20.0) == EnergyAccount::closes);
+  }
+  for (const int count : counts) CHECK(count > 100);
+  EnergyTotals broken;
+  broken.initial = 1.0, broken.kinetic = std::numeric_limits<double>::quiet_NaN();
+  CHECK(judge(broken, 0.0) == EnergyAccount::meaningless);
 }

@@ -156,6 +156,26 @@ TEST_CASE(
   CHECK(failure.report(s, true).perforated == false);
 }
 
+TEST_CASE("A punch that has passed a target of which nothing or only debris is left has perforated it",
+          "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  System& s = run.system;
+  const FailureAnalysis failure(s);
+  const auto perforated = [&] { return failure.report(s, true).perforated; };
+  cut(run, 0.0, 20.0);
+  REQUIRE(connected_pieces(s).empty());
+  CHECK(perforated() == false);  // rubble, but the punch is still above it
+  for (double& z : s.bodies[1].particles.position[1]) z -= 20.0;
+  CHECK(perforated() == true);
+  // Seven of 80 particles in the column are debris, eight are a piece that bars the way.
+  std::size_t whole = 0;
+  for (std::size_t i = 0; i < run.particles().size && whole < 8; ++i) {
+    if (!(std::abs(run.particles().position[0][i]) < 2.0)) continue;
+    variable(run, Variable::decohesion)[i] = 0.5;
+    CHECK(perforated() == (++whole < 8));
+  }
+}
+
 TEST_CASE("A scene without projectile or target has no answer to perforation", "[analysis]") {
   MpmScene scene;
   scene.tables = body("plate", box({0.0, 0.0}, {4.0, 4.0})) + models;

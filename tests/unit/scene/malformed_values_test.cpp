@@ -5,7 +5,10 @@ using namespace vitrum::test;
 
 TEST_CASE("values out of bounds are errors", "[scene]") {
   require_scene_faults({
-      {"cell = 1.0e-3", "cell = 0", "s.toml:4:8: key 'space.cell': ", {"found 0, expected a number > 0"}},
+      {"cell = 1.0e-3",
+       "cell = 0",
+       "s.toml:4:8: key 'space.cell': ",
+       {"found 0, expected a number in [1e-140, 1e+140] (m)"}},
       {"cell = 1.0e-3", "cell = nan", "s.toml:4:8: key 'space.cell': ", {"found nan"}},
       {"cell = 1.0e-3", "cell = inf", "s.toml:4:8: key 'space.cell': ", {"found inf"}},
       {"end = 1.0e-4",
