@@ -37,7 +37,7 @@ class Range(CommandLineTest):
     def refused(self, reason, **values):
         for command in ("check", "run"):
             message = self.vitrum(command, rods, *overrides(**values), status=2).stderr
-            self.assertRegex(message, rf"error: \S+: key '\S+': .*{reason}")
+            self.assertRegex(message, rf"error: .+: key '\S+': .*{reason}")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def scaled(self, factor):
@@ -50,7 +50,7 @@ class Range(CommandLineTest):
         self.refused("found mass = 4.94e-324 kg of a particle", material__m__density=1e-317, material__m__young=1e-307)
         self.refused("found 1[.0-9]*e-163, expected a number in .1e-140, 1e.140. .m", **self.scaled(1e-160))
         self.refused("found mass = 0 kg of a particle", space__geometry='"axisymmetric"', **self.scaled(1e-110))
-        self.refused("found energy at the speed of a wave = inf J", material__m__density=1e150, material__m__young=1e300)
+        self.refused("found energy at the speed of a wave = 2.78e.293 J", material__m__density=1e150, material__m__young=1e300)
         self.refused("found kinetic energy = 2.5e-3.. J", body__0__velocity__0=1e-150)
         self.refused("found kinetic energy = inf J", body__0__velocity__0=1e160)
         self.refused("apart as numbers, and steps of", time__start=1e9, time__end=1000000000.5)

@@ -76,7 +76,7 @@ TEST_CASE("Particles a rounding beside cell edges, and nodes of a mass fraction 
     for (const char* shape : {"linear", "gimp", "bspline2"})
       for (const double beside : {1e-12, 1e-15, 0.0, -1e-12}) {
         CAPTURE(method, shape, beside);
-        MpmRun run(collision({method, lines(1e-2, "remap = 0.5")}, shape));
+        MpmRun run(collision({method, lines(1e-3, "remap = 0.5")}, shape));
         for (Body& b : run.system.bodies)
           for (auto& column : b.particles.position)
             for (std::size_t i = 0; i < column.size(); i += 3)
