@@ -8,6 +8,7 @@
 
 #include "app/command_line.hpp"
 #include "app/demands.hpp"
+#include "app/encounters.hpp"
 #include "app/machine.hpp"
 #include "app/messages.hpp"
 #include "app/warnings.hpp"
@@ -127,14 +128,17 @@ int check_scene(const CheckOptions& options) {
   require_clock(scene, system);
   const std::vector<std::string> warned = warnings(scene, system, threads);
   nlohmann::ordered_json facts = derived(scene, system, size, work, threads);
+  const StartGeometry geometry = start_geometry(scene, system);
   if (options.json) {
+    facts.update(to_json(geometry, scene));
     facts["warnings"] = warned;
     facts["resolved"] = resolved_toml(scene);
     show(facts.dump(2) + '\n');
     return exit_done;
   }
   for (const std::string& w : warned) warn(w);
-  show(readable(input.name, scene, system, facts, size, work, threads) + '\n' + resolved_toml(scene));
+  show(readable(input.name, scene, system, facts, size, work, threads) + to_text(geometry, scene) + '\n' +
+       resolved_toml(scene));
   return exit_done;
 }
 

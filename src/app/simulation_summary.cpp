@@ -4,6 +4,7 @@
 
 #include "app/command_line.hpp"
 #include "app/messages.hpp"
+#include "app/plausibility.hpp"
 #include "app/simulation.hpp"
 #include "mpm/stress.hpp"
 #include "scene/choices.hpp"
@@ -91,7 +92,7 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
   return exit_status;
 }
 
-/// What only the end of a run tells: an account that does not close.
+/// What only the end of a run tells: an account that does not close, a tolerance that did not act.
 Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
   Warnings list;
   const double residual = s.energy.relative_residual();
@@ -107,6 +108,7 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
             ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
               "particles a cell, or integrator.method = \"arkode-explicit\""
             : integrator_->advice(system_, state_.last_step)));
+  if (const auto idle = idle_tolerance(scene_, s.integrator)) list.push_back(scene::single_line(*idle));
   return list;
 }
 

@@ -6,6 +6,8 @@
 #include <iterator>
 
 #include "app/demands.hpp"
+#include "app/encounters.hpp"
+#include "app/plausibility.hpp"
 #include "scene/boundary_checks.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/toml_text.hpp"
@@ -82,6 +84,8 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_scheme(scene, list);
   warn_of_long_phases(scene, system, critical, list);
   warn_of_snap_back(scene, list);
+  warn_of_motion(scene, system, list);
+  warn_of_geometry(scene, system, list);
   for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several
   return list;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -93,10 +94,34 @@ std::optional<DecohesionParameters> read_decohesion(const TableReader& material)
   return parameters;
 }
 
+/// Waves of solids travel at some hundred metres a second to some ten thousand: what is far outside is mostly
+/// a value in GPa, MPa or g/cm^3.
+void warn_of_wave_speed(const TableReader& material, const ElasticParameters& given) {
+  constexpr double slowest = 100.0, fastest = 20e3;
+  const auto speed = [](const ElasticParameters& e) {
+    return std::sqrt(elastic_moduli(e).p_wave() / e.density);
+  };
+  const double found = speed(given);
+  if (found >= slowest && found <= fastest) return;
+  std::string meant;
+  for (const auto& [member, key, exponent] :
+       {std::tuple(&ElasticParameters::young, "young", 9), std::tuple(&ElasticParameters::young, "young", 6),
+        std::tuple(&ElasticParameters::density, "density", 3)}) {
+    ElasticParameters other = given;
+    other.*member *= std::pow(10.0, exponent);
+    // Glass, metals and rock, so that not just any factor will do.
+    if (const double c = speed(other); !meant.empty() || c < 1e3 || c > fastest) continue;
+    meant = fmt::format("; {} = {:g}: did you mean {:g}e{}?", key, given.*member, given.*member, exponent);
+  }
+  material.warn("young",
+                fmt::format("waves travel at {:.4g} m/s in this material, expected {:g} to {:g} m/s{}", found,
+                            slowest, fastest, meant));
+}
+
 MaterialParameters read_material(const TableReader& table, std::string name) {
   MaterialParameters material;
   material.name = std::move(name);
-  read_parameters(table, material.elastic);
+  if (read_parameters(table, material.elastic)) warn_of_wave_speed(table, material.elastic);
   material.damage = read_damage(table, material.elastic);
   material.drucker_prager = read_drucker_prager(table);
   material.von_mises = read_von_mises(table);

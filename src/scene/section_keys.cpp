@@ -52,8 +52,11 @@ KeyTable space() {
       required(
           choice_key("geometry", geometry_names,
                      "coordinates (r, z) with the axis at r = 0, or (x, y) with no strain across the plane")),
-      required(number_key("cell", {1e-140, 1e140}, "m", "side of the square grid cells; the grid is unbounded")),
-      defaulted(choice_key("shape_functions", shape_function_names, "`linear`: the hat functions of the original method"), "\"linear\""),
+      required(
+          number_key("cell", {1e-140, 1e140}, "m", "side of the square grid cells; the grid is unbounded")),
+      defaulted(choice_key("shape_functions", shape_function_names,
+                           "`linear`: the hat functions of the original method"),
+                "\"linear\""),
   };
   return keys;
 }
@@ -128,7 +131,8 @@ KeyTable constitutive() {
       defaulted(number_key("atol", fraction, "1",
                            "substep, cvode: absolute tolerance, times each state's own scale"),
                 standard.atol),
-      defaulted(choice_key("solver", local_solver_names, "cvode: multistep family"), toml_quoted(standard.solver)),
+      defaulted(choice_key("solver", local_solver_names, "cvode: multistep family"),
+                toml_quoted(standard.solver)),
   };
   return keys;
 }

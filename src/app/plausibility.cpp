@@ -1,0 +1,74 @@
+#include "app/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitrum::app {
+namespace {
+
+bool rests(const BodyDefinition& body) {
+  return body.velocity == Vector2{0.0, 0.0} && body.velocity_gradient == std::array<Vector2, 2>{} &&
+         body.stress == std::array<double, 4>{};
+}
+
+bool is_driven(const BoundaryDefinition& wall) {
+  return wall.velocity != Vector2{0.0, 0.0};
+}
+
+double speed_between(const Vector2& a, const Vector2& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+}  // namespace
+
+void warn_of_motion(const Scene& scene, const System& system, Warnings& list) {
+  if (scene.gravity == Vector2{0.0, 0.0} && std::ranges::all_of(scene.bodies, rests) &&
+      std::ranges::none_of(scene.boundaries, is_driven))
+    list.push_back(
+        fmt::format("{}: nothing moves in this scene: no body has a velocity or a stress, no boundary a "
+                    "velocity, and there is no gravity",
+                    scene.at("body")));
+  for (std::size_t a = 0; a < scene.bodies.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double speed = speed_between(scene.bodies[a].velocity, scene.bodies[b].velocity);
+      const std::size_t slow =
+          system.bodies[a].material->wave_speed() < system.bodies[b].material->wave_speed() ? a : b;
+      const double wave = system.bodies[slow].material->wave_speed();
+      if (!(speed > wave)) continue;
+      const auto still = [&](std::size_t n) { return scene.bodies[n].velocity == Vector2{0.0, 0.0}; };
+      list.push_back(
+          fmt::format("{}: bodies '{}' and '{}' move at {:.4g} m/s to each other, faster than waves in '{}' "
+                      "({:.4g} m/s): the laws "
+                      "know no shocks",
+                      scene.at(fmt::format("body.{}.velocity", still(a) ? b : a)), scene.bodies[b].name,
+                      scene.bodies[a].name, speed, scene.bodies[slow].name, wave));
+    }
+}
+
+std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters) {
+  constexpr std::int64_t few = 20;
+  constexpr double idle = 0.05;
+  if (scene.integrator.method == GridMethod::explicit_steps || scene.integrator.fixed_step ||
+      counters.steps < few)
+    return std::nullopt;
+  const auto steps = static_cast<double>(counters.steps);
+  if (static_cast<double>(counters.limited_by_accuracy + counters.rejected) >= idle * steps)
+    return std::nullopt;
+  struct Limit {
+    const char* name;
+    std::int64_t steps;
+  };
+  const Limit limits[] = {{"stability", counters.limited_by_stability},
+                          {"outputs", counters.limited_by_output},
+                          {"remaps", counters.limited_by_remap}};
+  const Limit& most = *std::ranges::max_element(limits, {}, &Limit::steps);
+  return fmt::format(
+      "{}: rtol does not act: {:.0f} % of the steps are limited by {}, {:.0f} % by accuracy; {:g} would "
+      "give much the same steps",
+      scene.at("integrator.rtol"), 100.0 * static_cast<double>(most.steps) / steps, most.name,
+      100.0 * static_cast<double>(counters.limited_by_accuracy) / steps, 10.0 * scene.integrator.rtol);
+}
+
+}  // namespace vitrum::app

@@ -1,0 +1,16 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "app/warnings.hpp"
+#include "integrators/grid/grid_integrator.hpp"
+
+namespace vitrum::app {
+
+/// Scenes in which nothing moves; bodies that meet faster than waves travel in them.
+void warn_of_motion(const Scene& scene, const System& system, Warnings& list);
+
+/// What the end of an adaptive run tells: hardly a step was as long as its tolerance allowed.
+std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters);
+
+}  // namespace vitrum::app
