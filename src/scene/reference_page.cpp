@@ -45,6 +45,17 @@ runs take. Time is counted at that rate, which the reference case with the close
 second figure, for a run in which no increment is elastic: it takes some increments of each material, in tension, shear and crushing, while it runs, and
 counts the slowest. A run lies between the two, as much of it is damaged or flows. A file has at most 16 MB, a dotted key 64 parts, a polygon 10,000 vertices, the path of a point 1e8 rows.
 
+A particle whose mass, volume, kinetic energy or energy at the speed of a wave lies outside 1e-285 to 1e285 is refused, and so are times so far from 0 that
+a step has fewer than 100 units of their last digit.
+
+What is valid but hardly meant is warned of, by `check` and `run`: waves slower than 100 m/s or faster than 20 km/s (with the value that was probably meant), bodies that
+approach each other faster than waves travel in one of them, a scene in which nothing moves, a body that flies past everything, a disk or ring off the axis
+(a torus), bodies that do not touch but share nodes of the grid, so that one velocity field joins them. The end of an adaptive run says whether its
+tolerance acted. Warnings go to standard error, and stand in `summary.json` and `check --json` as `warnings`.
+
+`check` prints for each body the mass of its shape and of its particles, for bodies within 4 cells and each body's nearest the gap between the shapes, the distance of
+their nearest particles and the number of common nodes, and for each boundary the nodes with mass in its box.
+
 This page is printed by the program from the tables that its reader uses; do not edit it.
 )";
 

@@ -5,7 +5,7 @@ import unittest
 
 import h5py
 import numpy as np
-from support import CommandLineTest, impact, overrides, read_summary
+from support import CommandLineTest, impact, overrides, read_summary, told
 
 explicit = overrides(integrator__method='"arkode-explicit"', integrator__rtol=1e-2)
 implicit = overrides(integrator__method='"arkode-implicit"', integrator__rtol=1e-2, integrator__order=2)
@@ -21,7 +21,7 @@ class Results(CommandLineTest):
             with self.subTest(method):
                 out = self.folder / method
                 answer = self.vitrum("run", impact, "--out", out, *settings)
-                for line in answer.stderr.splitlines():  # and nothing of SUNDIALS' own
+                for line in told(answer.stderr):  # and nothing of SUNDIALS' own
                     self.assertRegex(line, r"^(t = |warning: )")
                 self.assertIn("estimated error of integration", answer.stdout)
                 summary = read_summary(out)

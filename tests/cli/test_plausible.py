@@ -66,7 +66,7 @@ class Plausible(CommandLineTest):
         wall = overrides(boundary="[{box={min=[-1,-1],max=[1,0.0005]},fix=['y']},{box={min=[0.0203,-1],max=[1,1]},fix=['x']}]")
         facts = json.loads(self.vitrum("check", rods, "--json", *wall).stdout)
         self.assertEqual(facts["boundary_nodes"], [21, 0])
-        self.assertIn("# boundary 0: 21 nodes with mass\n", self.vitrum("check", rods, *wall).stdout)
+        self.assertIn("# boundary 'boundary.0': 21 nodes with mass\n", self.vitrum("check", rods, *wall).stdout)
 
     def test_a_tolerance_that_is_idle(self):
         idle = {"integrator__method": '"arkode-explicit"', "integrator__rtol": 0.1, "time__end": 40e-6}

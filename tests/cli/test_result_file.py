@@ -5,7 +5,7 @@ import xml.etree.ElementTree
 
 import h5py
 import numpy as np
-from support import CommandLineTest, impact, output_count, overrides, plane_strain, read_result, read_summary
+from support import CommandLineTest, impact, output_count, overrides, plane_strain, read_result, read_summary, told
 
 fields = {"position": 2, "velocity": 2, "stress": 4, "damage": 1, "crack_density": 1, "max_rate": 1, "plastic_strain": 1,
           "decohesion": 1, "opening_n": 1, "opening_t": 1, "normal_r": 1, "normal_z": 1, "dissipated": 1}
@@ -111,7 +111,7 @@ class Answers(CommandLineTest):
     def test_quiet(self):
         answer = self.vitrum("run", impact, "--out", "out", "--quiet")
         self.assertEqual(answer.stdout, "")
-        for line in answer.stderr.splitlines():
+        for line in told(answer.stderr):
             self.assertRegex(line, "^warning: ")
 
     def test_without_out(self):

@@ -13,7 +13,7 @@ namespace vitrum::test {
 
 /// The paper's reference scene with changes (--set texts).
 inline Scene reference(const std::vector<std::string>& changes) {
-  return read_scene(std::string(VITRUM_SOURCE_DIR) + "/studies/paper/reference.toml", changes);
+  return read_scene(VITRUM_SOURCE_DIR "/studies/paper/reference.toml", changes);
 }
 
 /// Changes for a plate of another radius (m).
