@@ -47,7 +47,9 @@ class Kill(CommandLineTest):
                 out = self.folder / f"{method} {n}"
                 moment, second = duration * moments.random(), duration * moments.random()
                 with self.subTest(method, moment=moment / duration, second=second / duration):
-                    hits += self.kill_after(moment, out, *settings)
+                    hit = self.kill_after(moment, out, *settings)
+                    hits += hit
+                    duration = duration if hit else min(duration, moment)  # the machine has less to do than before
                     seen.add(self.assert_completed_outputs(out, whole))
                     self.assert_told_truly(out)
                     if (out / "checkpoint.h5").exists() and self.kill_after(second, out, *settings, "--resume"):
