@@ -77,7 +77,7 @@ struct StepController {};
                                                       double k1, double k2, double bias) {
 #if SUNDIALS_VERSION_MAJOR >= 7
   StepController controller(allocated(SUNAdaptController_PI(context)));
-  SUNAdaptController_SetParams_PI(controller.get(), k1, k2);
+  SUNAdaptController_SetParams_PI(controller.get(), k1, -k2);  // its exponents are -k1/p, -k2/p
   SUNAdaptController_SetErrorBias(controller.get(), bias);
   ARKodeSetAdaptController(arkode, controller.get());
   return controller;

@@ -5,7 +5,7 @@ import unittest
 from support import PackagingTest, build
 
 
-@unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "no Debian tools for packages (dpkg-dev)")
+@unittest.skipUnless(shutil.which("dpkg-shlibdeps") and shutil.which("file"), "no Debian tools for packages (dpkg-dev, file)")
 class DebianPackage(PackagingTest):
     def test_package(self):
         self.command("cpack", "-G", "DEB", "--config", build / "CPackConfig.cmake", "-B", self.folder)
