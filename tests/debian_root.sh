@@ -34,6 +34,7 @@ in_root() {
   unshare --mount --pid --fork --kill-child sh -c '
     set -eu
     root="$1"; shift
+    mount --bind "$root" "$root"  # a mount point of its own: tests mount small disks below it
     mount -t proc proc "$root/proc"
     mount --rbind /sys "$root/sys"
     mount --rbind /dev "$root/dev"
