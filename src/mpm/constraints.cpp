@@ -68,8 +68,7 @@ void Grid::hold(std::size_t component, std::size_t node, std::int16_t by) {
     if (a.priority == b.priority && a.velocity[component] != b.velocity[component])
       throw ComputationError(
           fmt::format("boundaries '{}' and '{}' have met: they hold the same nodes at different velocities "
-                      "({:g} and {:g} "
-                      "m/s); give one of them a higher 'priority'",
+                      "({:g} and {:g} m/s); give one of them a higher 'priority'",
                       a.name, b.name, a.velocity[component], b.velocity[component]));
   }
   holder = by;
