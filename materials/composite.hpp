@@ -66,6 +66,11 @@ class Composite final : public Material {
     PointState state;
     double plastic_dissipation = 0.0;
   };
+  /// A fraction of a leg and the state there.
+  struct Place {
+    double fraction;
+    PointState state;
+  };
 
   Moduli secant(bool tension, double crack_density) const {
     if constexpr (has_damage) {
@@ -126,8 +131,11 @@ class Composite final : public Material {
   double leg_end(const Leg& leg) const;
   double flow(PointState& s, const Moduli& moduli, double violated_before) const;
   double yield_function(const PointState& s, const Moduli& moduli) const;
-  double localisation_criterion(const Leg& leg, const PointState& s) const;
+  bool is_critical(const Leg& leg, const PointState& s) const;
+  bool may_localise(const Leg& leg, const PointState& from, const PointState& to) const;
+  std::array<double, 2> turning_points(const Leg& leg, double end) const;
   bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
+  bool find_critical(const Leg& leg, const Place& from, const Place& to, int halvings, double& first) const;
   void start_decohesion(bool tension, bool damage_grows, PointState& s) const;
   void record_events(const Leg& leg, const PointState& end, double end_fraction, double done,
                      PointReport& report) const;
@@ -173,6 +181,7 @@ class Composite final : public Material {
                            const SymmetricTensor& strain, double& gap, double& slip) const;
   Softening softening(const EvolutionMode& mode, const PointState& s, const Moduli& moduli) const;
   double flow_localisation(const PointState& s, const Moduli& moduli, double modulus) const;
+  double largest_normal_strain(const SymmetricTensor& strain) const;
   double damage_localisation(const PointState& s) const;
   /// Change of the effective traction that a strain brings, Pa.
   static double pull(const DecohesionPlane& plane, const PlaneDrive& drive, const Moduli& moduli,

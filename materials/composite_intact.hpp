@@ -126,52 +126,125 @@ double Composite<D, Y, C>::leg_end(const Leg& leg) const {
   return std::clamp(-start / change, 0.0, 1.0);
 }
 
-/// <= 0 where the state admits a discontinuity: growing damage (Phi) or softening flow (H >= H_cr, eq. 25).
+/// Whether the state admits a discontinuity: growing damage (Phi) or softening flow (H >= H_cr, eq. 25).
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::localisation_criterion([[maybe_unused]] const Leg& leg,
-                                                  [[maybe_unused]] const PointState& s) const {
-  double value = std::numeric_limits<double>::infinity();
-  if constexpr (C && D) {
-    if (leg.tension && s.crack_density > leg.start.crack_density) value = damage_localisation(s);
-  }
+bool Composite<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
+                                     [[maybe_unused]] const PointState& s) const {
+  if constexpr (C && D)
+    if (leg.tension && s.crack_density > leg.start.crack_density && damage_localisation(s) <= 0.0)
+      return true;
   if constexpr (C && Y == Yielding::von_mises) {
     const double modulus = von_mises_.modulus(s.plastic_strain);
     if (s.plastic_strain > leg.start.plastic_strain && modulus < 0.0)
-      value = std::min(value, flow_localisation(s, secant(leg.tension, s.crack_density), modulus));
+      return flow_localisation(s, secant(leg.tension, s.crack_density), modulus) <= 0.0;
   }
-  return value;
+  return false;
+}
+
+/// Whether a state between two of a leg may be critical: a bound on both criteria.
+///
+/// Damage. Phi is a function of x and of y = x (e_n - tr/3)/tr. It falls with y, and where it is positive so
+/// it is at the same y and less x. While damage grows x and x/tr rise (eq. 7), and e_n - tr/3 is convex along
+/// a straight path: x of the end, with the larger e_n - tr/3, bounds Phi.
+///
+/// Flow. The criterion is a function of c^2/r^2, centre and radius of the deviator's circle in the plane, in
+/// which the normals in the plane lose and the hoop normal gains; it falls with damage. Between two of
+/// `turning_points` that ratio rises or falls throughout.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
+                                      [[maybe_unused]] const PointState& from,
+                                      [[maybe_unused]] const PointState& to) const {
+  if constexpr (C && D) {
+    const double t = trace(to.elastic_strain);
+    if (leg.tension && to.crack_density > leg.start.crack_density && t > 0.0) {
+      const auto above_mean = [&](const SymmetricTensor& e) {
+        return largest_normal_strain(e) - trace(e) / 3.0;
+      };
+      const double most = std::max({0.0, above_mean(from.elastic_strain), above_mean(to.elastic_strain)});
+      if (damage_.bifurcation(to.crack_density / crack_density_limit, t, t / 3.0 + most) <= 0.0) return true;
+    }
+  }
+  if constexpr (C && Y == Yielding::von_mises) {
+    const double softest = std::max(from.plastic_strain, von_mises_.peak_strain()),
+                 modulus = von_mises_.modulus(softest);
+    if (to.plastic_strain > leg.start.plastic_strain && to.plastic_strain >= softest && modulus < 0.0) {
+      const Moduli m = secant(leg.tension, to.crack_density);
+      return flow_localisation(from, m, modulus) <= 0.0 || flow_localisation(to, m, modulus) <= 0.0;
+    }
+  }
+  return false;
+}
+
+/// Fractions of a leg at which c^2/r^2 of its deviator is stationary, in rising order within (0, end); `end`
+/// where there are none.
+template <bool D, Yielding Y, bool C>
+std::array<double, 2> Composite<D, Y, C>::turning_points([[maybe_unused]] const Leg& leg, double end) const {
+  std::array<double, 2> at{end, end};
+  if constexpr (C && Y == Yielding::von_mises) {
+    // c = c0 + c1 f, r^2 = A + 2 B f + C f^2: c = 0, and c1 r^2 = c (r^2)'/2, which is linear.
+    const SymmetricTensor e = deviator(leg.start.elastic_strain), d = deviator(leg.strain);
+    const auto half = [](const SymmetricTensor& a) { return 0.5 * (a.rr - a.zz); };
+    const double c0 = 0.5 * (e.rr + e.zz), c1 = 0.5 * (d.rr + d.zz);
+    const double r00 = half(e) * half(e) + e.rz * e.rz, r01 = half(e) * half(d) + e.rz * d.rz,
+                 r11 = half(d) * half(d) + d.rz * d.rz;
+    const auto inside = [&](double f) { return f > 0.0 && f < end ? f : end; };
+    at = {inside(-c0 / c1), inside((c0 * r01 - c1 * r00) / (c1 * r01 - c0 * r11))};
+    if (at[0] > at[1]) std::swap(at[0], at[1]);
+  }
+  return at;
 }
 
 /// Looks for the first localisation of the leg; when there is one, shortens `end` to it and sets the state
 /// there.
 template <bool D, Yielding Y, bool C>
 bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed& at_end) const {
-  const double growth = (at_end.state.crack_density - leg.start.crack_density) / crack_density_limit;
-  const double plastic = at_end.state.plastic_strain - leg.start.plastic_strain;
-  if (!(growth > 0.0) && !(plastic > 0.0)) return false;
-  // Samples fine enough that the criterion cannot cross zero twice between two of them; uniform in x where
-  // damage grows.
-  const int samples = static_cast<int>(std::min(1.0 + growth / 0.02 + plastic / 1.0e-3, 128.0));
-  const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
-  const auto critical = [&](double f) { return localisation_criterion(leg, follow(leg, f).state) <= 0.0; };
-  double previous = 0.0;
-  for (int i = 1; i <= samples; ++i) {
-    double f = end * i / samples;
-    if constexpr (D) {
-      if (growth > 0.0 && (i < samples || at_end.state.crack_density >= crack_density_limit)) {
-        const double density = leg.start.crack_density + growth * crack_density_limit * i / samples;
-        f = std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change,
-                       previous, end);
+  const bool grows = at_end.state.crack_density > leg.start.crack_density;
+  bool softens = false;
+  if constexpr (Y == Yielding::von_mises)
+    softens = at_end.state.plastic_strain > leg.start.plastic_strain &&
+              at_end.state.plastic_strain >= von_mises_.peak_strain() &&
+              leg.start.plastic_strain < von_mises_.floor_strain();
+  if (!grows && !softens) return false;
+  // Flow bends the path along which damage grows: the bound takes short pieces of it for straight.
+  int pieces = 1;
+  if constexpr (D && Y == Yielding::von_mises) {
+    const double growth = (at_end.state.crack_density - leg.start.crack_density) / crack_density_limit,
+                 flow = at_end.state.plastic_strain - leg.start.plastic_strain;
+    if (grows && flow > 0.0) pieces = static_cast<int>(std::min(1.0 + growth / 0.02 + flow / 1.0e-3, 128.0));
+  }
+  const std::array<double, 2> turns = turning_points(leg, end);
+  Place from{0.0, leg.start};
+  for (const double cut : {turns[0], turns[1], end}) {
+    const double start = from.fraction, length = cut - start;
+    for (int i = 1; i <= pieces && length > 0.0; ++i) {
+      const double f = i < pieces ? start + length * i / pieces : cut;
+      const Place to{f, f < end ? follow(leg, f).state : at_end.state};
+      constexpr int halvings = 20;  // what is critical for less than a millionth of a leg may be missed
+      if (find_critical(leg, from, to, halvings, end)) {
+        at_end = follow(leg, end);
+        return true;
       }
+      from = to;
     }
-    if (critical(f)) {
-      end = first_reached(previous, f, critical);
-      at_end = follow(leg, end);
-      return true;
-    }
-    previous = f;
   }
   return false;
+}
+
+/// The first critical fraction between two places of a leg, by halving what may hold one.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::find_critical(const Leg& leg, const Place& from, const Place& to, int halvings,
+                                       double& first) const {
+  if (!may_localise(leg, from.state, to.state)) return false;
+  if (halvings == 0) {
+    if (!is_critical(leg, to.state)) return false;
+    first = first_reached(from.fraction, to.fraction,
+                          [&](double f) { return is_critical(leg, follow(leg, f).state); });
+    return true;
+  }
+  const double f = 0.5 * (from.fraction + to.fraction);
+  const Place middle{f, follow(leg, f).state};
+  return find_critical(leg, from, middle, halvings - 1, first) ||
+         find_critical(leg, middle, to, halvings - 1, first);
 }
 
 /// Fixes plane, strength (eq. 18) and effective length from the state at localisation.

@@ -242,17 +242,18 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
     if (mode.plane == Plane::held || mode.plane == Plane::decohering)
       mode.plane = may_open ? Plane::decohering : Plane::held;
   }
-  mode.flowing = may_flow;
+  bool opens_alone = false;
   if constexpr (C) {
     if (may_open) {
       // The elastic material behind the plane drives it beyond what it can bear: it snaps back whether or not
       // the material flows.
       mode.flowing = false;
       const EvolutionRates alone = rates(mode, s, path);
-      if (alone.decohesion > 0.0 && !alone.advances()) return false;
-      mode.flowing = may_flow;
+      opens_alone = alone.decohesion > 0.0;
+      if (opens_alone && !alone.advances()) return false;
     }
   }
+  mode.flowing = may_flow;
   if constexpr (has_yield || C) {
     if (mode.flowing && Y == Yielding::von_mises && falls_through(mode, s)) {
       if (mode.decohering()) mode.plane = Plane::held;  // the fall comes first
@@ -268,10 +269,11 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const PointState& s, c
         if (snaps_back_alone(mode, s, path)) return mode.flowing = false;
         if (Y == Yielding::von_mises && flows) return true;
       }
+      // Where either would relieve the other the plane opens: after the localisation the discrete law acts.
+      const bool opening_relieves = opens_alone && !flows;
       EvolutionMode flow_alone = mode;
       flow_alone.plane = Plane::held;
-      const bool by_flow = !opens && rates(flow_alone, s, path).plastic_strain > 0.0;
-      if (by_flow)
+      if (!opening_relieves && !opens && rates(flow_alone, s, path).plastic_strain > 0.0)
         mode.plane = Plane::held;
       else
         mode.flowing = false;

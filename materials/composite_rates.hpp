@@ -203,14 +203,19 @@ double Composite<D, Y, C>::flow_localisation(const PointState& s, const Moduli& 
   return 1.0 - plane.severity;
 }
 
+/// Largest normal strain among the planes that are searched.
+template <bool D, Yielding Y, bool C>
+double Composite<D, Y, C>::largest_normal_strain(const SymmetricTensor& e) const {
+  const double in_plane = 0.5 * (e.rr + e.zz) + std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
+  return decohesion_.parameters().search_all_planes ? std::max(in_plane, e.tt) : in_plane;
+}
+
 /// <= 0 where growing damage admits a discontinuity (Phi).
 template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::damage_localisation(const PointState& s) const {
   const SymmetricTensor& e = s.elastic_strain;
   if (!(trace(e) > 0.0)) return 1.0;
-  double largest = 0.5 * (e.rr + e.zz) + std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
-  if (decohesion_.parameters().search_all_planes) largest = std::max(largest, e.tt);
-  return damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest);
+  return damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest_normal_strain(e));
 }
 
 template <bool D, Yielding Y, bool C>
