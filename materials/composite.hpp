@@ -25,6 +25,7 @@ class Composite final : public Material {
   std::span<const VariableInfo> variables() const override { return variables_; }
   double wave_speed() const override { return std::sqrt(elastic_.p_wave() / parameters_.elastic.density); }
   PointState initial_state(const SymmetricTensor& stress) const override;
+  void judge(PointState& state, PointReport& report) const override;
   void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,
                PointReport& report) const override;
   void respond(const ParticleColumns& particles, std::size_t begin, std::size_t end, double duration,
@@ -140,6 +141,9 @@ class Composite final : public Material {
   void record_events(const Leg& leg, const PointState& end, double end_fraction, double done,
                      PointReport& report) const;
   double damage_dissipation(const Leg& leg, const PointState& end, double end_fraction) const;
+
+  // composite_start.hpp
+  void damage_at_once(PointState& s, PointReport& report) const;
 
   // composite_localised.hpp
   void advance_localised(PointState& s, const SymmetricTensor& strain, double duration, double done,

@@ -7,6 +7,7 @@
 #include "materials/composite_modes.hpp"
 #include "materials/composite_rates.hpp"
 #include "materials/composite_settle.hpp"
+#include "materials/composite_start.hpp"
 #include "materials/composite_tangent.hpp"
 
 namespace vitrum {

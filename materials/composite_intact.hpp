@@ -319,7 +319,7 @@ template <bool D, Yielding Y, bool C>
 double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& end,
                                               double end_fraction) const {
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
-  double x0 = leg.start.crack_density / crack_density_limit;
+  const double x0 = leg.start.crack_density / crack_density_limit;
   const double x1 = end.crack_density / crack_density_limit;
   const double at_start = damage_.target(start_trace / 3.0, leg.coefficient);
   const auto fraction_at = [&](double density) {
@@ -330,22 +330,13 @@ double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const PointState& 
   const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - 1e-12);
   const double from = grows_from_start ? 0.0 : fraction_at(leg.start.crack_density);
   const double to = x1 >= 1.0 ? fraction_at(crack_density_limit) : end_fraction;
-  // An initial stress may ask for more damage than the start holds: that much comes at once, at constant
-  // strain.
-  double sudden = 0.0;
-  if (at_start > leg.start.crack_density * (1.0 + 1e-9)) {
-    const double x = std::min(at_start / crack_density_limit, x1);
-    sudden = damage_.moduli(x0).energy(leg.start.elastic_strain) -
-             damage_.moduli(x).energy(leg.start.elastic_strain);
-    x0 = x;
-  }
   const auto elastic_strain_at = [&](double fraction) {
     // (Plastic flow takes part of the deviator: between both states the path is taken for straight.)
     if constexpr (Y == Yielding::von_mises)
       if (fraction > 0.0) return follow(leg, fraction).state.elastic_strain;
     return leg.start.elastic_strain + fraction * leg.strain;
   };
-  return sudden + damage_.dissipation(x0, x1, elastic_strain_at(from), elastic_strain_at(to));
+  return damage_.dissipation(x0, x1, elastic_strain_at(from), elastic_strain_at(to));
 }
 
 }  // namespace vitrum

@@ -169,12 +169,6 @@ void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, PointState& s, const
   if (change > 0.0 && path.duration > 0.0) s.max_rate = std::max(s.max_rate, change / (3.0 * path.duration));
   mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
   const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
-  if (s.crack_density == 0.0 && target > 1e-12) {  // an initial stress asks for damage at once
-    const double before = stored_energy(s);
-    s.crack_density = target;
-    report.dissipation.damage += before - stored_energy(s);
-    report.record(EventKind::damage, fraction);
-  }
   const bool reached = mode.damaging || target >= s.crack_density * (1.0 - 1e-12);
   const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
   if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction);

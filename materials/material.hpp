@@ -144,8 +144,13 @@ class Material {
   virtual std::span<const VariableInfo> variables() const = 0;
   /// Speed of plane pressure waves in the undamaged material, m/s.
   virtual double wave_speed() const = 0;
-  /// State at the start under a given stress (Pa).
+  /// The undamaged state under a given stress (Pa), not yet judged.
   virtual PointState initial_state(const SymmetricTensor& stress) const = 0;
+  /// What a given state asks for at once, before anything moves: tension the damage of eq. 7 at `rate_floor`
+  /// (or the state's larger rate) up to the onset of localisation, stress outside the yield surface its fall,
+  /// a plane that bears too much its opening. Sets the stress. The other functions take a state that has been
+  /// judged, as all that they leave are.
+  virtual void judge(PointState& state, PointReport& report) const = 0;
   /// Closed-form response to a strain increment that is linear in time over `duration` seconds (> 0, or 0 for
   /// a jump). The increment is given in the material's own turning frame; the state is not rotated here.
   virtual void respond(PointState& state, const SymmetricTensor& strain_increment, double duration,

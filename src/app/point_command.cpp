@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/command_line.hpp"
+#include "app/material_warnings.hpp"
 #include "app/messages.hpp"
 #include "app/point_path.hpp"
 #include "scene/input_text.hpp"
@@ -64,6 +65,8 @@ int drive_point(const PointOptions& options) {
   const InputText& input = show_lines_of(read_input(options.file), options.overrides);
   const PointScene scene = parse_point(input.text, input.name, options.overrides);
   for (const std::string& w : scene.warnings) warn(w);
+  if (!is_localised(scene.state))
+    for (const std::string& w : material_warnings(scene.material)) warn(w);
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);
   Csv csv(options.out);
   csv.line(header(*material));

@@ -20,7 +20,9 @@ class Walk {
         local_(make_local_integrator(scene.constitutive)),
         time_(scene.time[0]),
         state_(scene.state) {
-    state_.stress = material.secant_moduli(state_).stress(state_.elastic_strain);
+    PointReport report;
+    material.judge(state_, report);
+    tell_events(report, time_);
     // A path that does not start at zero strain starts with a jump to its first point.
     if (scene.strain[0] != SymmetricTensor{}) advance(time_, scene.strain[0]);
   }
@@ -33,8 +35,7 @@ class Walk {
           fmt::format("t = {} s: {}; try constitutive.method = \"closed-form\", another constitutive.rtol, "
                       "or a finer strain path",
                       time_, report.cause));
-    for (std::size_t k = 0; k < report.event_count; ++k)
-      listener_.event(report.events[k].kind, time_ + report.events[k].fraction * (to - time_));
+    tell_events(report, to);
     if (!std::isfinite(trace(state_.stress) + state_.stress.rz + state_.dissipated))
       throw ComputationError(
           fmt::format("t = {} s: the stress is not finite (strain {}, {}, {}, {}); reduce the strain path",
@@ -45,6 +46,12 @@ class Walk {
   void tell() const { listener_.row(time_, strain_, state_); }
 
  private:
+  /// Of an increment from the present time on.
+  void tell_events(const PointReport& report, double to) const {
+    for (std::size_t k = 0; k < report.event_count; ++k)
+      listener_.event(report.events[k].kind, time_ + report.events[k].fraction * (to - time_));
+  }
+
   const Material& material_;
   const PathListener& listener_;
   std::unique_ptr<LocalIntegrator> local_;

@@ -5,6 +5,7 @@
 
 #include "app/simulation.hpp"
 #include "mpm/coasting.hpp"
+#include "mpm/initial_state.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
 #include "output/xdmf.hpp"
@@ -15,6 +16,9 @@
 namespace vitrum::app {
 
 void Simulation::start() {
+  mpm::judge_initial_states(system_);
+  ledger_.book(system_);
+  failure_.observe(system_, 0.0);
   result_ = output::ResultFile::create(
       directory_, {scene_.title, scene_.verbatim, resolved_toml(scene_), provenance_,
                    options_.no_fields ? output::ParticleConstants{}

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "app/demands.hpp"
+#include "app/material_warnings.hpp"
 #include "app/encounters.hpp"
 #include "app/plausibility.hpp"
 #include "scene/boundary_checks.hpp"
@@ -84,6 +85,8 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_scheme(scene, list);
   warn_of_long_phases(scene, system, critical, list);
   warn_of_snap_back(scene, list);
+  for (const MaterialParameters& m : scene.materials)
+    std::ranges::move(material_warnings(m), std::back_inserter(list));
   warn_of_motion(scene, system, list);
   warn_of_geometry(scene, system, list);
   for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
-#include <span>
-
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
 #include "scene/toml_text.hpp"
@@ -25,16 +22,6 @@ bool check_times(const TableReader& path, const std::vector<double>& time) {
 }
 
 }  // namespace
-
-void read_state(const TableReader& document, PointScene& point) {
-  const auto table = document.table("state", keys::state());
-  if (!table) return;
-  std::array<double, 4> e{};
-  if (table->read("elastic_strain", std::span<double>(e)))
-    point.state.elastic_strain = {e[0], e[1], e[2], e[3]};
-  for (const VariableInfo& v : all_variables())
-    table->read(v.name, point.state.*variable_members[static_cast<std::size_t>(v.variable)]);
-}
 
 void read_path(const TableReader& document, PointScene& point) {
   const auto path = document.table("path", keys::path());

@@ -97,6 +97,73 @@ class Point(CommandLineTest):
                 self.assertRegex(answer.stderr, r"error: \S*wrong\.toml(:\d+:\d+)?: .*" + expected)
                 self.assertFalse((self.folder / "point.csv").exists())
 
+    def test_a_contradictory_state_is_refused(self):
+        plane = {"normal_r": "1.0", "effective_length": "1e-3", "cohesive_strength": "1e8"}
+        wrong = (
+            (plane | {"normal_r": "2.0"}, r"normal_r': found a normal \(2\.0, 0\.0\) of length 2, expected a unit vector"),
+            (plane | {"normal_z": "0.5"}, r"normal_r': found a normal \(1\.0, 0\.5\) of length 1\.118"),
+            ({"decohesion": "0.5"}, r"decohesion': found 0\.5, expected 0: the point is not localised"),
+            ({"normal_r": "1.0"}, r"normal_r': found 1\.0, expected 0: the point is not localised"),
+            ({"opening_n": "1e-6"}, r"opening_n': .* expected 0: the point is not localised"),
+            ({"cohesive_strength": "1e8"}, r"cohesive_strength': .* not localised"),
+            ({"effective_length": "1e-3", "cohesive_strength": "1e8"}, r"effective_length': found a localised point without a normal"),
+            (plane | {"cohesive_strength": "0.0"}, r"cohesive_strength': found 0\.0 on a plane that has not separated"),
+            (plane | {"opening_n": "1e-6"}, r"opening_n': .* decohesion is 0"),
+            (plane | {"opening_t": "1e-6"}, r"opening_t': .* decohesion is 0"),
+            (plane | {"decohesion": "1.0", "opening_n": "-1e-6"}, r"opening_n': .* do not penetrate"),
+        )
+        for method in ("closed-form", "substep", "cvode"):
+            for state, expected in wrong:
+                with self.subTest(method=method, expected=expected):
+                    lines = "".join(f"{name} = {value}\n" for name, value in state.items())
+                    path = self.folder / "state.toml"
+                    path.write_text(f"{glass_point.read_text()}[state]\n{lines}[constitutive]\nmethod = \"{method}\"\n")
+                    answer = self.vitrum("point", path, status=2)
+                    self.assertRegex(answer.stderr, r"error: \S*state\.toml:\d+:\d+: key 'state\." + expected)
+
+    def test_a_state_of_models_that_are_not_there_is_refused(self):
+        for name, model in (("crack_density", "damage"), ("plastic_strain", "yield surface"), ("decohesion", "decohesion")):
+            path = self.folder / "state.toml"
+            path.write_text(f"{elastic}[state]\n{name} = 0.1\n")
+            answer = self.vitrum("point", path, status=2)
+            self.assertRegex(answer.stderr, rf"error: \S*state\.toml:\d+:\d+: key 'state\.{name}': found 0\.1, "
+                                            rf"expected 0: the material has no {model}")
+
+    def test_a_localised_state_is_taken(self):
+        path = self.folder / "state.toml"
+        path.write_text(f"{glass_point.read_text()}[state]\nnormal_r = 0.6\nnormal_z = -0.8\neffective_length = 1e-3\n"
+                        "cohesive_strength = 1e8\ndecohesion = 0.5\nopening_n = 2e-6\n")
+        rows, _ = self.drive(path)
+        self.assertGreaterEqual(rows["decohesion"][0], 0.5)
+
+    def test_an_initial_tension_is_judged_when_nothing_moves(self):
+        # Uniaxial strain of 2e-4 at 1 /s: beyond the onset (1.47e-4), where damage stops at .2013.
+        path = self.folder / "hold.toml"
+        hold = glass_point.read_text().replace("[3.0e-3, 0, 0, 0]", "[0, 0, 0, 0]")
+        for method in ("closed-form", "substep", "cvode"):
+            with self.subTest(method=method):
+                path.write_text(f"{hold}[state]\nelastic_strain = [2e-4, 0, 0, 0]\n[constitutive]\nmethod = \"{method}\"\n")
+                rows, fired = self.drive(path)
+                self.assertEqual(fired, {"damage": 0.0, "localisation": 0.0})
+                self.assertAlmostEqual(rows["damage"][0], 0.2013, delta=2e-4)
+                self.assertEqual(rows["damage"][-1], rows["damage"][0])
+                self.assertEqual(rows["decohesion"][-1], 0.0)
+                energy = 0.5 * 86.4e9 * 2e-4**2
+                self.assertAlmostEqual(rows["dissipated"][0] + 0.5 * rows["s_rr"][0] * 2e-4, energy, delta=1e-9 * energy)
+
+    def test_a_decohesion_that_nothing_begins_is_warned_of(self):
+        text = elastic.replace("[path]", "[material.glass.decohesion]\nopening = 5e-6\nmode_ratio = 1\n[path]")
+        path = self.folder / "idle.toml"
+        path.write_text(text)
+        warning = "warning: material.glass.decohesion: it can never begin"
+        self.assertIn(warning, self.vitrum("point", path).stderr)
+        steel = "[material.glass.von_mises]\nyield = 4e8\npeak = 5e8\nhardening = 1e10\nsoftening = "
+        for softening, warned in ((0.0, True), (1e10, False)):
+            path.write_text(f"{steel}{softening}\n{text}")
+            self.assertEqual(warning in self.vitrum("point", path).stderr, warned)
+        path.write_text(text + "[state]\neffective_length = 1e-3\nnormal_r = 1.0\ncohesive_strength = 1e8\n")
+        self.assertNotIn("warning", self.vitrum("point", path).stderr)
+
     def test_unwritable_file(self):
         for path in (self.folder / "missing" / "point.csv", self.folder, "/dev/full"):
             answer = self.vitrum("point", glass_point, "--out", path, status=4)

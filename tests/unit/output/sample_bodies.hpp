@@ -20,6 +20,7 @@ class DescribedMaterial final : public Material {
   PointState initial_state(const SymmetricTensor&) const override {
     throw std::logic_error("not for output");
   }
+  void judge(PointState&, PointReport&) const override { throw std::logic_error("not for output"); }
   void respond(PointState&, const SymmetricTensor&, double, PointReport&) const override {
     throw std::logic_error("not for output");
   }

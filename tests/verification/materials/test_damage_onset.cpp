@@ -59,3 +59,22 @@ TEST_CASE("strengths at 1000 /s", "[material][damage][bifurcation]") {
   CHECK(stretch_to_localisation(uniaxial, 1.0e3, false).state.stress.rr == Approx(108.09e6).epsilon(1e-4));
   CHECK(stretch_to_localisation(hydrostatic, 1.0e3, false).state.stress.rr == Approx(54.38e6).epsilon(1e-4));
 }
+
+TEST_CASE("damage at the onset falls with the volume change of the strain",
+          "[material][damage][bifurcation]") {
+  // What docs/study-paper.md says of damage that leads separation.
+  struct Case {
+    SymmetricTensor strain;
+    double damage;
+  };
+  for (const Case& c : {Case{{1.0, 0.0, 0.0, 0.0}, 0.201}, Case{{1.0, -0.4, -0.4, 0.0}, 0.088},
+                        Case{{1.0, -0.49, -0.49, 0.0}, 0.013}})
+    for (const double rate : {1.0, 1e4}) {
+      const auto glass = make_material(fracturing_glass(), cell);
+      const double size = 0.1;
+      const Driven d = drive(*glass, {{size * c.strain, size * trace(c.strain) / (3.0 * rate)}}, 1);
+      CAPTURE(c.damage, rate);
+      REQUIRE(is_localised(d.state));
+      CHECK(glass->damage(d.state) == Approx(c.damage).margin(6e-4));
+    }
+}
