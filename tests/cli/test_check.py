@@ -93,6 +93,15 @@ class Check(CommandLineTest):
                 text = self.vitrum("check", impact, *settings).stdout
                 self.assertEqual("measured now" in text, method != "closed-form")
 
+    def test_a_decohesion_that_nothing_begins_is_warned_of(self):
+        path = self.folder / "steel.toml"
+        path.write_text(plane_strain.read_text() + "\n[material.steel.decohesion]\nopening = 5e-6\nmode_ratio = 1.0\n")
+        for softening, warned in ((0.0, True), (1e9, False)):
+            for arguments in (("check", path), ("run", path, "--out", self.folder / str(warned))):
+                answer = self.vitrum(*arguments, *overrides(material__steel__von_mises__softening=softening))
+                self.assertEqual("material.steel.decohesion: it can never begin" in answer.stderr, warned)
+        self.assertNotIn("can never begin", self.vitrum("check", impact).stderr)
+
     def test_nothing_is_written(self):
         self.vitrum("check", impact)
         self.assertEqual(list(self.folder.iterdir()), [])
