@@ -4,7 +4,7 @@
 function(vitrum_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(${target} PRIVATE -Wno-restrict)  # GCC 12 warns of its own std::string at -O3 (bug 105651)
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)  # GCC 12 warns of its own std::string (bug 105651)
   endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     # What GCC is told about vectorising, clang does not know, or says that it does not heed.

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "app/demands.hpp"
-#include "app/material_warnings.hpp"
 #include "app/encounters.hpp"
+#include "app/material_warnings.hpp"
 #include "app/plausibility.hpp"
 #include "scene/boundary_checks.hpp"
 #include "scene/grid_method.hpp"
