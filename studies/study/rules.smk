@@ -2,6 +2,7 @@
 import importlib
 import os
 import pathlib
+import shlex
 import sys
 
 STUDIES = pathlib.Path(workflow.basedir).parent
@@ -9,7 +10,8 @@ sys.path.insert(0, str(STUDIES))
 os.environ.setdefault("VITRUM", str(STUDIES.parent / "build/release/src/app/vitrum"))
 QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
 # Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
-MODULE = f"PYTHONPATH={STUDIES} PYTHONDONTWRITEBYTECODE=1 VITRUM={os.environ['VITRUM']} /usr/bin/python3 -m {STUDY}.study"
+MODULE = (f"PYTHONPATH={shlex.quote(str(STUDIES))} PYTHONDONTWRITEBYTECODE=1 VITRUM={shlex.quote(os.environ['VITRUM'])} "
+          f"/usr/bin/python3 -m {STUDY}.study")
 JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
 
 localrules: all, check

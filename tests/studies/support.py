@@ -17,22 +17,30 @@ if "VITRUM" not in os.environ:
 os.environ["VITRUM"] = os.path.abspath(os.environ["VITRUM"])
 
 
-def run_study(name, out, *options):
+def run_study(name, out, *options, tree=source):
     """As `./quickstart study` does it, from the project's root."""
-    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=source)
+    return subprocess.run([tree / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=tree)
 
 
 class StudyTest(unittest.TestCase):
-    """Runs the quick variant of `study` once; its files stand in `out`."""
+    """Runs the quick variant of `study` once; its files stand in `out`. With `place`, from a copy of the studies, and of the program, in a folder of
+    that name."""
     study = ""
     options = ()
+    place = None
 
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrum-study-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        cls.out = cls.folder / "out"
-        done = run_study(cls.study, cls.out, *cls.options)
+        tree, program = source, os.environ["VITRUM"]
+        if cls.place is not None:
+            tree = cls.folder / cls.place
+            shutil.copytree(source / "studies", tree / "studies")
+            os.environ["VITRUM"] = str(shutil.copy(program, tree / "the program"))
+            cls.addClassCleanup(os.environ.__setitem__, "VITRUM", program)
+        cls.out = (cls.folder if cls.place is None else tree) / "what came out"
+        done = run_study(cls.study, cls.out, *cls.options, tree=tree)
         if done.returncode != 0:
             raise AssertionError(f"the study failed:\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}")
 

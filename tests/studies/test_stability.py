@@ -1,4 +1,5 @@
-"""The quick stability study: limits as theory says, growth in travel, energy, extremes that end well or say why."""
+"""The quick stability study: limits as theory says, growth in travel, energy, extremes that end well or say why. It runs in a folder whose name asks
+for quotes."""
 import unittest
 
 from support import StudyTest
@@ -6,6 +7,7 @@ from support import StudyTest
 
 class Stability(StudyTest):
     study = "stability"
+    place = "a blank, it's and \"quotes\""
 
     def test_files(self):
         self.assert_figures("limits", "growth", "energy")
