@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Draws the pictures of a run: snapshots, damage, openings, energy.
+"""Draws the pictures of a run.
 
     studies/plot_run.py OUTDIR [--out PICTURES_DIR] [--times T1 T2 ...]
 
-Writes snapshots, damage, opening and energy as PNG and PDF. Exit status: 0 done; 2 the input is wrong.
+Writes snapshots, damage, opening, cracks, fragments, fragment-masses, failure and energy as PNG and PDF, and says why one is missing. A run made with
+--no-fields has the last two. Each PNG carries the commit, the command and the scene of the run as text. Exit status: 0 done; 2 the input is wrong.
 """
 import argparse
 import pathlib
@@ -28,20 +29,39 @@ def parse(arguments):
     return parser.parse_args([f" {text}" if is_number(text) else text for text in arguments])
 
 
-def save(figure, folder, name):
+def save(figure, folder, name, stamp):
     import matplotlib.pyplot as plt
+    from plotting.looks import dots_per_inch
     for suffix in ("png", "pdf"):
         path = folder / f"{name}.{suffix}"
-        figure.savefig(path, dpi=150)
+        figure.savefig(path, dpi=dots_per_inch, metadata=stamp if suffix == "png" else {"Creator": stamp["Source"]})
         print(path)
     plt.close(figure)
+
+
+def pictures(run, frames):
+    """(name, function that draws it, why it may be missing)."""
+    from plotting import crack_figures, particle_figures
+    from plotting.energy_figure import energy_history
+    from plotting.history_figure import failure_history
+    of_particles = [("snapshots", particle_figures.snapshots, ""), ("damage", particle_figures.damage, "no material of the scene is damaged"),
+                    ("opening", particle_figures.opening, "nothing has opened at these times"),
+                    ("cracks", crack_figures.cracks, "the outputs hold no planes (effective_length, normal_r, normal_z)"),
+                    ("fragments", crack_figures.fragments, "the outputs do not tell what has separated (decohesion)"),
+                    ("fragment-masses", crack_figures.fragment_masses, "the outputs do not tell what has separated (decohesion)")]
+    for name, draw_it, reason in of_particles:
+        if run.frames:
+            yield name, lambda draw_it=draw_it: draw_it(run, frames), reason
+        else:
+            yield name, lambda: None, "the run was made with --no-fields"
+    yield "failure", lambda: failure_history(run), "nothing of the scene can fail"
+    yield "energy", lambda: energy_history(run), ""
 
 
 def draw(options):
     import matplotlib
     matplotlib.use("Agg")
-    from plotting.energy_figure import energy_history
-    from plotting.particle_figures import damage, opening, snapshots
+    from plotting import stamp
     from plotting.run_results import BadInput, RunResults
 
     run = RunResults(options.directory)
@@ -51,14 +71,12 @@ def draw(options):
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: cannot be made: {error.strerror}") from error
-    save(snapshots(run, frames), folder, "snapshots")
-    for name, figure, reason in (("damage", damage(run, frames), "no material of the scene is damaged"),
-                                 ("opening", opening(run, frames), "nothing has opened at these times")):
+    for name, draw_it, reason in pictures(run, frames):
+        figure = draw_it()
         if figure is None:
             print(f"{name}: not drawn: {reason}")
         else:
-            save(figure, folder, name)
-    save(energy_history(run), folder, "energy")
+            save(figure, folder, name, stamp.of_run(run))
 
 
 def main(arguments):

@@ -2,6 +2,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from plotting.looks import page_width
+
 # Okabe and Ito's colours, in an order that keeps neighbours of the stack apart.
 shares = {"kinetic": "#0072B2", "elastic": "#56B4E9", "plastic": "#E69F00", "damage": "#009E73", "fracture": "#D55E00"}
 beside = {"fontsize": 8, "loc": "center left", "bbox_to_anchor": (1.0, 0.5), "frameon": False}
@@ -40,7 +42,7 @@ def energy_history(run):
     time = 1e6 * account["time"]
     put_in = account["kinetic"][0] + account["elastic"][0] + account["external"]
     scale = max(np.max(np.abs(put_in)), np.max(account["kinetic"]))
-    figure, (stack, lines) = plt.subplots(2, 1, sharex=True, figsize=(7.2, 6.4), layout="constrained", height_ratios=[1.0, 1.2])
+    figure, (stack, lines) = plt.subplots(2, 1, sharex=True, figsize=(page_width, 6.0), layout="constrained", height_ratios=[1.0, 1.2])
     _stack(stack, time, account, put_in)
     _lines(lines, time, account, scale)
     for axes in (stack, lines):

@@ -1,53 +1,56 @@
 """Snapshots, and contours of damage and opening."""
-import matplotlib
 import numpy as np
-from matplotlib.colors import LogNorm, Normalize, to_rgba
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 
-from plotting.panels import Layout, Painting, colour_bar, draw_panels, legend_below, title
+from plotting import looks
+from plotting.panels import Layout, Painting, at_times, colour_bar, draw_panels
 
-# Okabe and Ito's colours, told apart by all kinds of colour vision.
-body_colours = ["#56B4E9", "#999999", "#E69F00", "#CC79A7", "#009E73", "#F0E442"]
-separated_colour = "#D55E00"
-untouched_colour = "#DDDDDD"
-damage_threshold = 1e-3
-opening_decades = 4
+
+def _everything(run):
+    return np.ones(len(run.body), bool)
+
+
+def _by_body(run, frame):
+    """Bodies in their colours, what has separated of each in its own."""
+    both = np.array([[to_rgba(looks.body_look(b, separated)) for separated in (False, True)] for b in range(len(run.bodies))])
+    return Painting(both[run.body, frame.separated().astype(int)], _everything(run))
+
+
+def _body_handles(panels):
+    run = panels[0].run
+    handles = [Patch(color=looks.body_look(b), label=f"{name} ({run.materials[b]})") for b, name in enumerate(run.bodies)]
+    for b, name in enumerate(run.bodies):
+        if any(np.any(panel.frame.separated() & (panel.run.body == b)) for panel in panels):
+            handles.append(Patch(color=looks.body_look(b, separated=True), label=f"{name}, separated"))
+    return handles
 
 
 def snapshots(run, frames):
-    """Bodies by colour, separated particles marked."""
-    everything = np.ones(len(run.body), bool)
-    base = np.array([to_rgba(body_colours[b % len(body_colours)]) for b in range(len(run.bodies))])
-
-    def paint(frame):
-        colours = base[run.body]
-        colours[frame.separated()] = to_rgba(separated_colour)
-        return Painting(colours, everything)
-
-    figure = draw_panels(run, frames, paint, everything, Layout(columns=3, width=3.1, strip_height=0.36))
-    title(figure, run, "Snapshots")
-    handles = [Patch(color=base[b], label=f"{name} ({run.materials[b]})") for b, name in enumerate(run.bodies)]
-    if any(np.any(frame.separated()) for frame in frames):
-        handles.append(Patch(color=separated_colour, label="separated particle"))
-    legend_below(figure, handles)
-    return figure
+    """Bodies by colour, separated particles of each darker."""
+    panels = at_times(run, frames)
+    return draw_panels(panels, _by_body, _everything, Layout(), "Snapshots", _body_handles(panels))
 
 
-def _contours(run, frames, values_of, norm, label, untouched):
-    """Panels of a field over time; particles below the scale are grey, and `untouched` says what they are."""
+def side_by_side(panels, what):
+    """Snapshots of several runs of one scene, in the view of the first."""
+    return draw_panels(panels, _by_body, _everything, Layout(columns=min(3, len(panels))), what, _body_handles(panels))
+
+
+def _contours(run, frames, values_of, scale, what):
+    """Panels of a field over time on a fixed scale; particles below it are pale, and the legend says so."""
     shown = np.isfinite(values_of(frames[-1]))
-    mapping = matplotlib.cm.ScalarMappable(norm, "viridis")
+    norm = scale.norm
 
-    def paint(frame):
+    def paint(_, frame):
         values = values_of(frame)
-        colours = mapping.to_rgba(np.maximum(np.nan_to_num(values), norm.vmin))
-        colours[~(values >= norm.vmin)] = to_rgba(untouched_colour)
+        colours = looks.worse(norm(np.maximum(np.nan_to_num(values), scale.bounds[0])))
+        colours[~(values >= scale.bounds[0])] = to_rgba(looks.untouched)
         return Painting(colours, shown)
 
-    layout = Layout(columns=2, width=4.3, strip_height=0.5, room_right=0.85)
-    figure = draw_panels(run, frames, paint, shown, layout)
-    colour_bar(figure, mapping, label, layout)
-    legend_below(figure, [Patch(color=untouched_colour, label=untouched)])
+    layout = Layout(room_right=0.8)
+    figure = draw_panels(at_times(run, frames), paint, lambda _: shown, layout, what, [Patch(color=looks.untouched, label=scale.below)])
+    colour_bar(figure, scale, layout)
     return figure
 
 
@@ -55,11 +58,7 @@ def damage(run, frames):
     """Damage D of eq. 8; None when no material of the scene has it."""
     if run.frames[-1].field("damage") is None:
         return None
-    largest = max(float(np.nanmax(frame.field("damage"))) for frame in frames)
-    norm = Normalize(damage_threshold, max(largest, 10.0 * damage_threshold))
-    figure = _contours(run, frames, lambda frame: frame.field("damage"), norm, "damage D (–)", f"D < {damage_threshold:g}")
-    title(figure, run, "Damage")
-    return figure
+    return _contours(run, frames, lambda frame: frame.field("damage"), looks.damage_scale, "Damage")
 
 
 def opening(run, frames):
@@ -67,18 +66,11 @@ def opening(run, frames):
     if run.frames[-1].opening() is None:
         return None
     brittle = run.frames[-1].field("damage")
-    brittle = np.isfinite(brittle) if brittle is not None else np.ones(len(run.body), bool)
+    brittle = np.isfinite(brittle) if brittle is not None else _everything(run)
 
     def micrometres(frame):
         return np.where(brittle, 1e6 * frame.opening(), np.nan)
 
-    values = np.concatenate([micrometres(frame) for frame in frames])
-    values = values[values > 0.0]
-    if not values.size:
+    if not any(np.any(micrometres(frame) > 0.0) for frame in frames):
         return None
-    # A few particles that fly apart shall not set the scale.
-    top = 10.0 ** np.ceil(np.log10(np.quantile(values, 0.999)))
-    norm = LogNorm(top * 10.0**-opening_decades, top)
-    figure = _contours(run, frames, micrometres, norm, "opening |u| (µm)", f"closed, or opening below {norm.vmin:g} µm")
-    title(figure, run, "Opening of the decohesion planes")
-    return figure
+    return _contours(run, frames, micrometres, looks.opening_scale(run.cell), "Opening of the decohesion planes")

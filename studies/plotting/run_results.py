@@ -36,6 +36,13 @@ class Frame:
         normal, tangential = self.field("opening_n"), self.field("opening_t")
         return None if normal is None or tangential is None else np.hypot(normal, tangential)
 
+    def plane(self):
+        """Which particles have localised (N), and the normals of their planes (N x 2; both components 0: across the hoop direction). None: not stored."""
+        length, normal_r, normal_z = self.field("effective_length"), self.field("normal_r"), self.field("normal_z")
+        if length is None or normal_r is None or normal_z is None:
+            return None
+        return np.nan_to_num(length) > 0.0, np.nan_to_num(np.column_stack([normal_r, normal_z]))
+
 
 class RunResults:
     """A finished, interrupted or killed run. Raises BadInput when the folder does not hold one."""
@@ -50,28 +57,33 @@ class RunResults:
                 if result.attrs.get("format") != "vitrum result 2":
                     raise BadInput(f"{path}: not a vitrum result of this version")
                 self.title = str(result.attrs["title"])
+                self.provenance = {name: str(value) for name, value in result["provenance"].attrs.items() if not name.startswith(".")}
+                # Columns over the outputs: SI.
+                self.series = {name: values[()] for name, values in result["series"].items()} if "series" in result else {}
                 self._read_scene(result)
-                self._read_particles(result, path)
+                self._read_particles(result)
         except (OSError, KeyError) as error:
             raise BadInput(f"{path}: cannot be read: {error}".replace("\n", " ")) from error
         self.energy = self._read_energy()
         self.summary = self._read_summary()
 
     def _read_scene(self, result):
-        scene = tomllib.loads(result["scene/resolved"][()].decode())
+        self.resolved = result["scene/resolved"][()].decode()
+        self.scene = scene = tomllib.loads(self.resolved)
         self.axisymmetric = scene["space"]["geometry"] == "axisymmetric"
         self.cell = scene["space"]["cell"]
         self.bodies = [body["name"] for body in scene["body"]]
         self.materials = [body["material"] for body in scene["body"]]
         self._sides = [self.cell / np.sqrt(body["particles_per_cell"]) for body in scene["body"]]
 
-    def _read_particles(self, result, path):
-        self.body = result["particles/body"][()]
+    def _read_particles(self, result):
+        """`frames` stays empty where the run was made with --no-fields."""
+        self.frames = [Frame(step) for step in result["steps"].values() if "particles" in step] if "steps" in result else []
+        if not self.frames:
+            return
+        self.body, self.mass = result["particles/body"][()], result["particles/mass"][()]
         # What each particle's square measures at the start (m).
         self.side = np.array(self._sides)[self.body]
-        self.frames = [Frame(step) for step in result["steps"].values() if "particles" in step]
-        if not self.frames:
-            raise BadInput(f"{path}: holds no particles; run without --no-fields")
 
     def _read_energy(self):
         """Columns of energy.csv, J (J/m in plane strain)."""
@@ -98,6 +110,8 @@ class RunResults:
 
     def frames_at(self, times):
         """The outputs nearest to `times` (s), each once, by time; six spread over the run when none is given."""
+        if not self.frames:
+            return []
         stored = np.array([frame.time for frame in self.frames])
         wanted = np.linspace(stored[0], stored[-1], 6) if times is None else np.array(times)
         slack = np.max(np.diff(stored), initial=0.0)

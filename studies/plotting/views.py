@@ -64,6 +64,26 @@ def close_up(run, frames, shown):
     return _padded(run, *sides, *_heights(run, frames, shown, sides, (bottom, top)))
 
 
+def broken(run, frames):
+    """Where particles have localised or separated in any of the frames, at equal scales; None: nowhere."""
+    places = []
+    for frame in frames:
+        plane = frame.plane()
+        failed = frame.separated() if plane is None else frame.separated() | plane[0]
+        if np.any(failed):
+            places.append([bulk(frame.position[failed, axis]) for axis in (0, 1)])
+    if not places:
+        return None
+    margin = 4.0 * run.cell
+    (left, right), (bottom, top) = (_joint([place[axis] for place in places]) for axis in (0, 1))
+    if run.axisymmetric:
+        left = -right
+    # No flatter than three to one, so that titles and scales stand beside something.
+    height = max(top - bottom + 2.0 * margin, (right - left + 2.0 * margin) / 3.0)
+    middle = 0.5 * (bottom + top)
+    return View(left - margin, right + margin, middle - 0.5 * height, middle + 0.5 * height)
+
+
 def strip(run):
     """The whole length of the focus body, and its thickness above and below its first place."""
     low, high = _extent(run, 0)
