@@ -1,4 +1,4 @@
-execute_process(COMMAND git -C "${SOURCE_DIR}" describe --always --dirty OUTPUT_VARIABLE HASH
+execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty OUTPUT_VARIABLE HASH
                 OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE STATUS)
 if(NOT STATUS EQUAL 0)
   set(HASH "unknown")

@@ -55,7 +55,7 @@ def case(radius, speed, treatment, end=None):
         "body.0.box.max.0": wall, "boundary.0.box.min.0": wall, "boundary.0.box.max.0": round(wall + 0.1, 6),
         "body.1.velocity.1": -float(speed), "time.start": -gap / speed, "time.end": end or ends[radius],
         "integrator.max_growth": float("inf"), "output.every": output_interval,
-        "output.fields": ["velocity", "damage", "decohesion", "opening_n", "opening_t"], **treatment.settings}, longest=1800.0)
+        "output.fields": ["velocity", "damage", "decohesion", "opening_n", "opening_t", "effective_length", "normal_r", "normal_z"], **treatment.settings}, longest=1800.0)
 
 
 def all_cases(quick):

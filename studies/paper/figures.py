@@ -2,6 +2,8 @@
 import matplotlib
 import numpy as np
 from matplotlib.lines import Line2D
+from plotting import stamp
+from plotting.crack_figures import cracks, fragment_masses, fragments
 from plotting.particle_figures import damage, opening, snapshots
 from study.figures import colours, legend_below, plt, save
 
@@ -9,7 +11,7 @@ from paper.sentences import plate_wave
 
 # The paper shows these: (radius, speed) -> times of its panels (µs).
 shown = {(200, 200): (50, 90, 100, 150), (200, 800): (50, 100, 150), (400, 200): (50, 100, 150, 250)}
-labels = {"snapshots": snapshots, "damage": damage, "opening": opening}
+labels = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks": cracks, "fragments": fragments, "fragment-masses": fragment_masses}
 
 
 def pictures(outcome, times, folder, name):
@@ -24,7 +26,7 @@ def _pictures(run, times, folder, name):
     for kind, draw in labels.items():
         figure = draw(run, frames)
         if figure is not None:
-            save(figure, folder, f"{name}-{kind}")
+            save(figure, folder, f"{name}-{kind}", stamp.of_run(run))
 
 
 def space_time(histories, title, folder, name):
@@ -82,7 +84,7 @@ def fronts(by_treatment, folder, name):
                     axes.step(1e6 * history.time, 1e3 * history.damage_front, linewidth=1.8, **look)
                     axes.step(1e6 * history.time, 1e3 * history.first_damage_front, linewidth=0.8, **look)
             axes.plot([0, 1e3 * radius / plate_wave], [0, radius], color="black", linewidth=0.8, linestyle=":")
-            axes.set_xlim(0, 150)
+            axes.set_xlim(0, min(150.0, 1e6 * max(history.time[-1] for history in runs.values())))
             axes.set_ylim(0, 1.05 * radius)
             axes.set_title(f"{label}, R = {radius} mm", fontsize=8)
         row[0].set_ylabel("damage front (mm)")

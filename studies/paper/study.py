@@ -1,16 +1,18 @@
 """The paper's nine cases: which of its sentences does each way of integrating reproduce?"""
 import sys
 
-from paper.cases import all_cases, name as case_name
+from paper.cases import all_cases
 from paper.figures import energies, fronts, pictures, shown, space_time
 from paper.history import History
 from paper.sentences import judge, made_energy, overall, sentences
 from study.case import as_typed
 from study.command import main
 from study.outcome import Outcome, run as compute
+from study.page import paper_title
 from study.tables import markdown, number, write_csv
 
 name = "paper"
+severe_times = (50, 100, 150)  # µs
 
 
 def jobs(quick):
@@ -32,7 +34,7 @@ def run(job, quick, out):
 def _case_row(radius, speed, treatment, history):
     summary = history.outcome.summary
     plate, cylinder = summary["bodies"]["plate"], summary["bodies"]["cylinder"]
-    severe = {time: history.outermost_severe(1e-6 * time) for time in (50, 100, 150)}
+    severe = {time: history.outermost_severe(1e-6 * time) for time in severe_times}
     return {"radius_mm": radius, "speed": speed, "treatment": treatment.key, "status": history.outcome.status,
             "end_us": 1e6 * summary["time"], "steps": summary["integrator"]["steps"], "rejected": summary["integrator"]["rejected"],
             "seconds": summary["wall_seconds"], "max_growth": summary["energy"]["max_growth"],
@@ -74,12 +76,13 @@ def _sentence_table(rows, treatments):
 
 
 def _case_table(rows, labels):
+    times = [time for time in severe_times if any(row[f"severe_mm_{time}"] is not None for row in rows)]
     header = ["R (mm)", "v (m/s)", "treatment", "until (µs)", "steps", "seconds", "energy made (%)", "first decohesion (µs)", "separated",
-              "severe up to, at 50 / 100 / 150 µs (mm)", "damage front (mm)", "perforated", "cylinder (m/s)"]
+              f"severe up to, at {' / '.join(map(str, times))} µs (mm)", "damage front (mm)", "perforated", "cylinder (m/s)"]
     return markdown(header, [[int(row["radius_mm"]), int(row["speed"]), labels[row["treatment"]],
                               number(row["end_us"]), row["steps"], number(row["seconds"], 2), number(-100 * row["residual"], 2),
                               number(row["first_decohesion_us"], 3), row["separated"],
-                              " / ".join(number(row[f"severe_mm_{time}"]) for time in (50, 100, 150)), number(row["damage_front_mm"]),
+                              " / ".join(number(row[f"severe_mm_{time}"]) for time in times), number(row["damage_front_mm"]),
                               {True: "yes", False: "no", None: "–"}[row["perforated"]], number(row["cylinder_velocity"], 4)] for row in rows])
 
 
@@ -100,15 +103,16 @@ def report(quick, out):
     resolved = [treatment for treatment in treatments if treatment.resolved and treatment.key in ("b", "c-1e-3", "c-1e-2")][:3]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
-    values = _page_values(every, histories, rows, case_rows, treatments)
-    published = [f"{kind}-R{radius}-v{speed}" for radius, speed in shown for kind in ("space-time",)] + ["energy-R200-v200", "fronts"]
-    published += [f"{case_name(*key, treatment)}-{kind}" for key, treatment, kind in
-                  (((200, 200), treatments[0], "snapshots"), ((200, 200), treatments[2], "snapshots"), ((200, 200), treatments[2], "damage"),
-                   ((200, 200), treatments[2], "opening"), ((200, 800), treatments[2], "snapshots"), ((400, 200), treatments[2], "snapshots"))]
-    return values, published
+    values = _page_values(every, histories, rows, case_rows, treatments, quick)
+    return values
 
 
-def _page_values(every, histories, rows, case_rows, treatments):
+def _listed(values):
+    texts = [str(value) for value in values]
+    return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
+
+
+def _page_values(every, histories, rows, case_rows, treatments, quick):
     labels = {treatment.key: treatment.label for treatment in treatments}
     counts = {verdict: [row["sentence"] for row in rows if row["overall"] == verdict] for verdict in
               ("reproduced", "depends on the integration", "only with an unresolved step", "only after a blow-up", "not reproduced", "undecided")}
@@ -116,7 +120,12 @@ def _page_values(every, histories, rows, case_rows, treatments):
     unresolved = [row for row in case_rows if row not in resolved]
     decohesion = [row["first_decohesion_us"] for row in resolved if row["speed"] == 200]
     first = next(case for key, case in every.items() if key[2] == treatments[2])
+    radii, speeds = (sorted({key[n] for key in every}) for n in (0, 1))
+    ends = sorted({1e6 * case.settings["time.end"] for case in every.values()})
     return {
+        "full": not quick, "paper": paper_title, "which": "The nine cases" if not quick else f"{number(len(radii) * len(speeds))} of its nine cases",
+        "radii": _listed(radii), "speeds": _listed(speeds), "ends": _listed(f"{end:g}" for end in ends), "latest": f"{ends[-1]:g}",
+        "resolved_step": f"{1e6 * treatments[2].settings['integrator.step']:g}",
         "sentences": _sentence_table(rows, treatments),
         "cases": _case_table(case_rows, labels),
         "counts": markdown(["outcome", "sentences", "which"], [[verdict, len(keys), ", ".join(keys) or "–"] for verdict, keys in counts.items()]),

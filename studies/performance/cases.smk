@@ -4,5 +4,5 @@ rule all:
 
 rule case:
     output: touch("{n}.done")
-    shell: "{config[program]:q} run {config[scene]:q} --out {wildcards.n} --quiet --threads 1 --no-fields "
+    shell: "{config[program]} run {config[scene]} --out {wildcards.n} --quiet --threads 1 --no-fields "
            "--set 'integrator.scheme=\"musl\"' --set integrator.step=2.5e-8 --set time.end={config[end]}"

@@ -69,7 +69,7 @@ def main():
     (arguments.out / "performance-measurements.md").write_text("\n\n".join(parts) + "\n")
     pictures = arguments.out / "pictures"
     pictures.mkdir(exist_ok=True)
-    draw_roofline(benchmarks, pictures / "roofline.png")
+    draw_roofline(benchmarks, pictures / "roofline.png", tables.version(program))
 
 
 if __name__ == "__main__":

@@ -29,7 +29,8 @@ def scene_points(benchmarks):
     return points
 
 
-def draw_roofline(benchmarks, path):
+def draw_roofline(benchmarks, path, version):
+    """`version`: the measured program's, which the picture carries."""
     bandwidth, scalar, vector = ceilings(benchmarks)
     intensity = [2.0**k for k in range(-4, 8)]
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
@@ -44,4 +45,4 @@ def draw_roofline(benchmarks, path):
     axes.set_title("Explicit MUSL step, one core")
     axes.grid(True, which="major", alpha=0.3)
     axes.legend(fontsize=8)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path, dpi=150, metadata={"Source": version, "vitrum-commit": version, "vitrum-command": "studies/performance/measure.py"})

@@ -25,6 +25,11 @@ def percent(part):
     return f"{100 * part:.0f} %"
 
 
+def version(program):
+    """The program's first line about itself."""
+    return subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+
+
 def header(program, repetitions):
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()
     processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())

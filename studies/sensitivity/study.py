@@ -8,7 +8,7 @@ from study.outcome import run as compute
 from study.tables import markdown, number, write_csv
 
 from sensitivity import figures
-from sensitivity.ensembles import all_ensembles, asked, base, case, watched
+from sensitivity.ensembles import all_ensembles, asked, base, case, end, fragmenting, quick_end, watched
 from sensitivity.predictions import fragment_masses, of_run, quantities, size, statistics
 
 name = "sensitivity"
@@ -102,17 +102,28 @@ def report(quick, out):
     write_csv(out / "tables" / "ensembles.csv", ["ensemble", "quantity", "members", "n", "median", "p05", "p95", "median_low", "median_high", "mean", "std"], stats_rows)
     rows = list(_robustness(found, quick))
     write_csv(out / "tables" / "robustness.csv", list(rows[0]), rows)
+    limits = figures.scales(found)
     for key, (title, ensembles) in asked(quick).items():
-        figures.question(title, ensembles, members, found, base.name, out / "figures", key)
-    labels = {"base": "MUSL 0.0493 µs", "musl-0.0125": "MUSL 0.0123 µs", "erk-1e-2": "ERK 3, rtol 1e-2", "musl-0.2": "MUSL 0.197 µs"}
-    figures.fragment_masses({label: [fragment_masses(outcome) for outcome in outcomes[key] if outcome.complete] for key, label in labels.items() if key in outcomes},
-                            out / "figures", "fragments")
+        figures.question(title, ensembles, members, found, base.name, limits, out / "figures", key)
+    figures.fragment_masses({label: [(fragment_masses(outcome), row["separated_mass"]) for outcome, row in zip(outcomes[key], members[key]) if outcome.complete]
+                             for label, key in fragmenting.items() if key in outcomes}, out / "figures", "fragments")
     spreads = {label: _spread(group, out) for label, group in watched(quick).items()}
     write_csv(out / "tables" / "spread.csv", ["run", "time", "median", "least", "most"],
               [{"run": label, "time": t, "median": float(np.median(column)), "least": float(column.min()), "most": float(column.max())}
                for label, (time, distance) in spreads.items() for t, column in zip(time, distance.T)])
     figures.spread(spreads, out / "figures", "spread")
-    return _page_values(rows, outcomes, found, spreads, quick), [*asked(quick), "fragments", "spread"]
+    return _page_values(rows, outcomes, found, spreads, quick)
+
+
+def _of_space(rows):
+    """What the discretisation in space shifts, as far as it was asked."""
+    def shift(prediction):
+        found = next(row for row in rows if row["prediction"] == quantities[prediction][0]).get("cell")
+        return None if found is None else number(100 * found, 2)
+
+    more = sum(max(row.get(question) or 0.0 for question in ("particles", "shape", "cell")) > (row["resolved"] or 0.0) + (row["scatter"] or 0.0) for row in rows)
+    return {"space_more": more, "predictions": len(rows), "cell_mass": shift("separated_mass"), "cell_radius": shift("outermost_radius"),
+            "cell_cylinder": shift("cylinder_velocity"), "cell_perforated": shift("perforated")}
 
 
 def _when(time, values, level):
@@ -137,7 +148,8 @@ def _page_values(rows, outcomes, found, spreads, quick):
     return {
         "robustness": markdown(["prediction", "base: median (5 … 95 %)", "scatter (%)", "shift, resolved steps and tolerances (%)", *[f"shift by {question} (%)" for question in groups], "verdict"], robust),
         "ensembles": markdown(["ensemble", "members", "failed", *[f"{label} ({unit})" if unit else label for label, unit, _ in quantities.values()]], everyone),
-        "members": max(ensemble.members for ensemble in all_ensembles(quick).values()), "end": number(20 if quick else 150),
+        "members": max(ensemble.members for ensemble in all_ensembles(quick).values()), "until": number(1e6 * (quick_end if quick else end)), "full": not quick,
+        **_of_space(rows),
         "runs": number(sum(len(group) for group in outcomes.values())), "failed": sum(not outcome.complete for group in outcomes.values() for outcome in group),
         "apart": markdown(["run", "1e-9 at", "1e-6 at", "1e-3 at", "1e-2 at", "in the end"], apart),
         "robust_list": ", ".join(row["prediction"] for row in rows if row["verdict"].startswith("robust")) or "none",

@@ -6,17 +6,21 @@ ladder = (2e-7, 1.5e-7, 1e-7, 7.5e-8, 5e-8, 2.5e-8, 1.25e-8)  # s
 tolerances = (1e-1, 1e-2, 1e-3)
 
 
+def end(quick):
+    """s."""
+    return 30e-6 if quick else 150e-6
+
+
 def cases(quick):
     """(scheme, step or tolerance) -> Case; adaptive runs of order 3 stand for comparison."""
-    end = 30e-6 if quick else 150e-6
     found = {}
     for scheme in ("usf", "musl") if quick else ("usf", "musl", "usl"):
         for step in (2e-7, 5e-8) if quick else ladder:
             found[scheme, step] = Case(f"energy-{scheme}-{step * 1e6:g}", "paper/reference.toml", {
-                "integrator.scheme": scheme, "integrator.step": step, "time.end": end}, fields=False)
+                "integrator.scheme": scheme, "integrator.step": step, "time.end": end(quick)}, fields=False)
     for rtol in (1e-2,) if quick else tolerances:
         found["erk3", rtol] = Case(f"energy-erk3-{rtol:g}", "paper/reference.toml", {
-            "integrator.method": "arkode-explicit", "integrator.order": 3, "integrator.rtol": rtol, "time.end": end}, fields=False)
+            "integrator.method": "arkode-explicit", "integrator.order": 3, "integrator.rtol": rtol, "time.end": end(quick)}, fields=False)
     return found
 
 

@@ -142,11 +142,13 @@ def report(quick, out):
     ranges = {}
     for shape in figures.shapes:
         of_shape = [row["measured"] for row in found["limits"] if row["scheme"] == "usf" and row["shape"] == shape]
-        ranges[shape] = f"{min(of_shape):.2f} to {max(of_shape):.2f}" if of_shape else "(not in the quick study)"
+        ranges[shape] = f"{min(of_shape):.2f} to {max(of_shape):.2f}" if of_shape else ""
     usl = [row["measured"] for row in found["limits"] if row["scheme"] == "usl" and row["shape"] == "linear"]
     made = {(row["scheme"], row["setting"]): row for row in found["energy"]}
     failed = [row for row in found["extremes"] if row["status"] == "failed"]
+    finest = min(key[1] for key in made if key[0] == "musl")
     values = {
+        "full": not quick, "energy_end": f"{1e6 * energy.end(quick):g}", "finest": f"{1e6 * finest:g}", "crossed": travel.travel,
         "limit_count": len(deviation), "limit_median": number(100 * float(np.median(deviation)), 2),
         "limit_within": sum(value <= 0.01 for value in deviation), "limit_worst": number(100 * worst["deviation"], 2),
         "limit_worst_where": f"{figures.names[worst['scheme']]}, {worst['shape']}, {worst['particles_per_cell']} per cell, offset {worst['offset']:g}",
@@ -161,7 +163,7 @@ def report(quick, out):
         "usl_completed": sum(row["status"] == "complete" for key, row in made.items() if key[0] == "usl"),
         "extreme_count": len(found["extremes"]), "extreme_failed": len(failed), "extreme_long": sum(row["status"] == "too-long" for row in found["extremes"]),
     }
-    return values, ["limits", "growth", "energy"]
+    return values
 
 
 if __name__ == "__main__":

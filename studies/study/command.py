@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from study.case import check
 from study.outcome import StudyError
-from study.page import PageError, fill, provenance, publish
+from study.page import PageError, check_pictures, fill, provenance, publish, write_blocks
 
 
 def _check(cases):
@@ -20,18 +20,26 @@ def _check(cases):
 
 
 def _report(study, quick, out):
-    values, shown = study.report(quick, out)
-    template = (pathlib.Path(sys.modules[study.__name__].__file__).parent / "page.md").read_text()
-    page = fill(template, values) + "\n" + provenance(study.name, quick)
+    values = study.report(quick, out)
+    folder = pathlib.Path(sys.modules[study.__name__].__file__).parent
+    page = fill((folder / "page.md").read_text(), values) + "\n" + provenance(study.name, quick, out)
+    check_pictures(page, out / "figures")
+    blocks = {target: fill((folder / template).read_text(), study.block_values(quick, out)) for target, template in getattr(study, "blocks", {}).items()}
+    for target, text in blocks.items():
+        (out / f"blocks-of-{target}").write_text(text)
     (out / "page.md").write_text(page)
     if not quick:
-        publish(study.name, page, out / "figures", shown)
+        name = study.name
+        publish(page, out / "figures", getattr(study, "page", f"docs/study-{name}.md"), getattr(study, "pictures", f"docs/pictures/study-{name}"))
+        for target, text in blocks.items():
+            write_blocks(target, text)
     return 0
 
 
 def main(study):
     """`study` is a module with: name; jobs(quick): names of jobs; cases(quick): every case that is known beforehand;
-    run(job, quick, out); report(quick, out): values of the page, figures that it shows."""
+    run(job, quick, out); report(quick, out): values of the page. It may name its page and the folder of its pictures, and templates of blocks in other
+    pages, with block_values(quick, out)."""
     parser = argparse.ArgumentParser(description=study.__doc__)
     parser.add_argument("verb", choices=["check", "run", "report"])
     parser.add_argument("job", nargs="?")

@@ -5,6 +5,10 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from plotting import stamp  # noqa: E402
+from plotting.looks import dots_per_inch, page_width  # noqa: E402,F401
+
+from study.provenance import made_by  # noqa: E402
 
 # Okabe and Ito's colours, told apart by all kinds of colour vision; markers tell them apart in grey.
 colours = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
@@ -18,12 +22,13 @@ style = {
 plt.rcParams.update(style)
 
 
-def save(figure, folder, name):
-    """NAME.png and NAME.pdf."""
+def save(figure, folder, name, of_run=None):
+    """NAME.png, with its origin as text (the study's, and the run's where it shows one), and NAME.pdf."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
+    origin = {**(of_run or {}), **stamp.of_study(*made_by())}
     for suffix in ("png", "pdf"):
-        figure.savefig(folder / f"{name}.{suffix}", dpi=150)
+        figure.savefig(folder / f"{name}.{suffix}", dpi=dots_per_inch, metadata=origin if suffix == "png" else {"Creator": origin["Source"]})
     plt.close(figure)
 
 

@@ -1,13 +1,18 @@
 """The page of a study: text with the numbers just measured."""
 import datetime
+import json
 import os
 import pathlib
 import platform
 import re
 import shutil
-import subprocess
 
-from study.case import program, root
+from study.case import root
+from study.provenance import commit, version
+
+
+# "The paper" of all pages.
+paper_title = "A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method"
 
 
 class PageError(Exception):
@@ -15,11 +20,25 @@ class PageError(Exception):
 
 
 def fill(template, values):
-    """Replaces every {{NAME}}; each value must be used, and each name known, so that text and numbers stay together."""
-    names = set(re.findall(r"\{\{(\w+)\}\}", template))
+    """Replaces every {{NAME}}, and keeps {{if NAME}} ... {{end}} where the value is true: what a variant has not measured it does not state. Each value
+    must be used, and each name known, so that text and numbers stay together."""
+    names = set(re.findall(r"\{\{(?:if )?(\w+)\}\}", template)) - {"end"}
     if names != set(values):
         raise PageError(f"unknown names {sorted(names - set(values))}, unused values {sorted(set(values) - names)}")
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: str(values[match[1]]), template)
+    kept = re.sub(r"\{\{if (\w+)\}\}(.*?)\{\{end\}\}", lambda match: match[2] if values[match[1]] else "", template, flags=re.DOTALL)
+    return re.sub(r"\n{3,}", "\n\n", re.sub(r"\{\{(\w+)\}\}", lambda match: str(values[match[1]]), kept))
+
+
+def pictures(page):
+    """Names below figures/ that a page shows."""
+    return re.findall(r"\]\(figures/([^)]+)\)", page)
+
+
+def check_pictures(page, figures):
+    """Raises PageError when the page shows a picture that is not in its folder."""
+    missing = [name for name in pictures(page) if not (pathlib.Path(figures) / name).exists()]
+    if missing:
+        raise PageError(f"the page shows pictures that nobody drew: {', '.join(missing)}")
 
 
 def _machine():
@@ -32,23 +51,45 @@ def _machine():
     return f"{model}, {os.cpu_count()} cores, {system}"
 
 
-def provenance(name, quick):
-    """Command, commit and machine, as the end of a page."""
-    version = subprocess.run([program(), "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
-    commit = subprocess.run(["git", "-C", root, "describe", "--always", "--dirty", "--abbrev=12"], capture_output=True, text=True)
+def run_times(out):
+    """How many runs a study keeps, and how long they took together (s)."""
+    seconds = [json.loads(path.read_text())["seconds"] for path in sorted((pathlib.Path(out) / "runs").rglob("outcome.json"))]
+    return len(seconds), sum(seconds)
+
+
+def provenance(name, quick, out):
+    """Command, commit, machine and time, as the end of a page."""
+    count, seconds = run_times(out)
     command = f"./quickstart study {name}" + (" --quick" if quick else "")
     return ("## How this page was made\n\n"
-            f"`{command}`, {datetime.date.today().isoformat()}; commit {commit.stdout.strip() or 'unknown'} ({version}); {_machine()}. "
+            f"`{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {_machine()}; {count:,} runs, {seconds:,.0f} s together. "
             "The program writes this page; do not edit it. The text is that of "
             f"`studies/{name}/page.md`; tables (CSV) and all figures (PNG, PDF) stand in `out/study-{name}{'-quick' if quick else ''}`.\n")
 
 
-def publish(name, page, figures, names):
-    """Puts the page into docs/ and the pictures that it shows beside it."""
-    pictures = root / "docs" / "pictures" / f"study-{name}"
-    pictures.mkdir(parents=True, exist_ok=True)
-    for old in pictures.glob("*.png"):
+def publish(page, figures, target, beside):
+    """Puts the page where readers find it, and the pictures that it shows beside it; paths from the project's root."""
+    folder = root / beside
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("*.png"):
         old.unlink()
-    for figure in names:
-        shutil.copy(pathlib.Path(figures) / f"{figure}.png", pictures)
-    (root / "docs" / f"study-{name}.md").write_text(page.replace("](figures/", f"](pictures/study-{name}/"))
+    for picture in pictures(page):
+        shutil.copy(pathlib.Path(figures) / picture, folder)
+    (root / target).write_text(page.replace("](figures/", f"]({os.path.relpath(root / beside, (root / target).parent)}/"))
+
+
+def split_blocks(text):
+    """Name -> text, of a template whose blocks begin with <!-- block NAME -->."""
+    parts = re.split(r"<!-- block (\w+) -->\n", text)[1:]
+    return {name: block.strip("\n") for name, block in zip(parts[::2], parts[1::2])}
+
+
+def write_blocks(target, text):
+    """Replaces what stands between <!-- made: NAME --> and <!-- end: NAME --> in a page; each block must have its place, and each place its block."""
+    page, blocks = (root / target).read_text(), split_blocks(text)
+    places = re.findall(r"<!-- made: (\w+) -->", page)
+    if sorted(places) != sorted(blocks):
+        raise PageError(f"{target} has places for {sorted(places)}, and there are blocks {sorted(blocks)}")
+    for name, block in blocks.items():
+        page = re.sub(rf"(<!-- made: {name} -->\n).*?(\n<!-- end: {name} -->)", lambda match: f"{match[1]}\n{block}\n{match[2]}", page, flags=re.DOTALL)
+    (root / target).write_text(page)

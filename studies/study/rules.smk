@@ -2,7 +2,6 @@
 import importlib
 import os
 import pathlib
-import shlex
 import sys
 
 STUDIES = pathlib.Path(workflow.basedir).parent
@@ -10,14 +9,13 @@ sys.path.insert(0, str(STUDIES))
 os.environ.setdefault("VITRUM", str(STUDIES.parent / "build/release/src/app/vitrum"))
 QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
 # Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
-MODULE = (f"PYTHONPATH={shlex.quote(str(STUDIES))} PYTHONDONTWRITEBYTECODE=1 VITRUM={shlex.quote(os.environ['VITRUM'])} "
-          f"/usr/bin/python3 -m {STUDY}.study")
+MODULE = f"PYTHONPATH={STUDIES} PYTHONDONTWRITEBYTECODE=1 VITRUM={os.environ['VITRUM']} /usr/bin/python3 -m {STUDY}.study"
 JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
 
 localrules: all, check
 
 # Whatever may change results; runs that a change leaves as they are, are found again by their command (study/outcome.py).
-SOURCES = [str(path) for folder in (STUDY, "study") for path in sorted((STUDIES / folder).glob("*.py"))] + \
+SOURCES = [str(path) for folder in (STUDY, "study", "plotting") for path in sorted((STUDIES / folder).glob("*.py"))] + \
     [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
 
 rule check:
@@ -33,7 +31,7 @@ rule job:
     shell: "{MODULE} run {wildcards.job} {QUICK}"
 
 rule report:
-    input: expand("jobs/{job}.done", job=JOBS), str(STUDIES / STUDY / "page.md")
+    input: expand("jobs/{job}.done", job=JOBS), [str(path) for path in sorted((STUDIES / STUDY).glob("*.md"))]
     output: "page.md"
     message: "tables, figures and page"
     shell: "{MODULE} report {QUICK}"

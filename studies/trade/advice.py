@@ -1,6 +1,6 @@
 """The cheapest setting for an accuracy."""
 from trade.figures import names as family_names
-from trade.problems import names, problems
+from trade.problems import names, problems, title
 
 levels = (0.1, 0.01, 0.001)
 fixed_steps = ("usf", "usl", "musl")
@@ -30,7 +30,7 @@ def describe(row):
     return f"{family_names[row['family']]} {setting}" + ("" if row["local"] == "closed-form" else f", {row['local']}")
 
 
-def recommendations(rows, floors):
+def recommendations(rows, floors, quick):
     """One row for each problem, quantity and level; linear shape functions."""
     found = []
     for key, problem in problems.items():
@@ -38,7 +38,7 @@ def recommendations(rows, floors):
         for quantity in names(problem) if linear else []:
             floor = floors[key]["linear", quantity]
             for level in levels:
-                row = {"problem": problem.title, "quantity": quantity, "level": level, "references apart": floor}
+                row = {"problem": title(problem, quick), "quantity": quantity, "level": level, "references apart": floor}
                 if floor is None or floor > level:
                     found.append(row | {"cheapest": "undecidable: the references differ by more"})
                     continue

@@ -37,7 +37,7 @@ def _limits(rows, column, floor):
     return 0.4 * low, min(2.5 * max(values), 10.0)
 
 
-def work_precision(rows, floors, title, folder, name):
+def work_precision(rows, floors, label, title, folder, name):
     """Error of the velocities over wall time and over right-hand sides; a row of panels for each shape function."""
     shapes = list(dict.fromkeys(row["shape"] for row in rows))
     families = [family for family in looks if any(row["family"] == family for row in rows)]
@@ -48,7 +48,7 @@ def work_precision(rows, floors, title, folder, name):
             _curves(axes, chosen, x, "velocity", families)
             axes.set_ylim(*_limits(chosen, "velocity", floors.get((shape, "velocity"))))
             _floor(axes, floors.get((shape, "velocity")))
-            axes.set_title(shape)
+            axes.set_title(label(shape))
         line[0].set_ylabel("error of velocity (–)")
     panels[-1, 0].set_xlabel("wall time (s)")
     panels[-1, 1].set_xlabel("evaluations of the right-hand side")

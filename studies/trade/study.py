@@ -8,8 +8,8 @@ from study.tables import markdown, number, write_csv
 
 from trade import figures
 from trade.advice import describe, recommendations
-from trade.measure import ladder_jobs, measure, method_case, references, repeats, tight_cases, timed
-from trade.problems import names, problems
+from trade.measure import ladder_jobs, long_run, measure, method_case, references, repeats, tight_cases, timed
+from trade.problems import failure_end, names, problems, shape_name, title
 
 name = "trade"
 
@@ -51,24 +51,28 @@ def report(quick, out):
     write_csv(out / "tables" / "work-precision.csv", columns, every)
     write_csv(out / "tables" / "references.csv", ["problem", "shape", "quantity", "difference"],
               [{"problem": key, "shape": shape, "quantity": quantity, "difference": value} for key in floors for (shape, quantity), value in floors[key].items()])
-    advice = recommendations(rows, floors)
+    advice = recommendations(rows, floors, quick)
     write_csv(out / "tables" / "recommendations.csv", list(dict.fromkeys(key for row in advice for key in row)), advice)
     for key in ("impact", "onset"):
-        figures.work_precision(rows[key], floors[key], problems[key].title.capitalize(), out / "figures", f"work-precision-{key}")
+        figures.work_precision(rows[key], floors[key], lambda shape, key=key: shape_name(problems[key], shape), _heading(key, quick), out / "figures", f"work-precision-{key}")
     for key in ("onset", "failure"):
-        figures.quantities(rows[key], floors[key], names(problems[key]), problems[key].title.capitalize(), out / "figures", f"quantities-{key}")
+        figures.quantities(rows[key], floors[key], names(problems[key]), _heading(key, quick), out / "figures", f"quantities-{key}")
     figures.tolerance({"impact": rows["impact"], "onset": rows["onset"]}, out / "figures", "tolerance")
-    figures.divergence(apart, out / "figures", "divergence")
+    figures.divergence({shape_name(problems["failure"], shape): series for shape, series in apart.items()}, out / "figures", "divergence")
     locals_ = [row for key in ("onset", "failure") for row in rows[key] if row["shape"] == "linear" and
                (row["local"] != "closed-form" or (row["family"], row["tightness"]) in (("musl", 5e-8), ("erk3", 1e-4)))]
     figures.local(locals_, out / "figures", "local")
-    published = ["work-precision-impact", "work-precision-onset", "quantities-onset", "quantities-failure", "tolerance", "divergence", "local"]
-    return _page_values(rows, floors, apart, advice, locals_, quick), published
+    return _page_values(rows, floors, apart, advice, locals_, quick)
+
+
+def _heading(key, quick):
+    text = title(problems[key], quick)
+    return text[0].upper() + text[1:]
 
 
 def _when(time, values, level):
     above = np.nonzero(values > level)[0]
-    return f"{1e6 * time[above[0]]:.3g} µs" if above.size else "never"
+    return f"at {number(1e6 * time[above[0]])} µs" if above.size else "never"
 
 
 def _page_values(rows, floors, apart, advice, locals_, quick):
@@ -77,7 +81,7 @@ def _page_values(rows, floors, apart, advice, locals_, quick):
     fixed = [row for row in linear["impact"] if row["family"] in ("usf", "musl") and row["seconds"]]
     adaptive = [row for row in linear["impact"] if row["family"].startswith("erk") and row["seconds"]]
     table = markdown(["problem", "shape functions", "quantity", "references differ by"],
-                     [[problems[key].title, shape, quantity, number(value, 2)] for key in floors for (shape, quantity), value in floors[key].items()])
+                     [[title(problems[key], quick), shape_name(problems[key], shape), quantity, number(value, 2)] for key in floors for (shape, quantity), value in floors[key].items()])
     return {
         "recommendations": markdown(["problem", "quantity", "error", "cheapest", "s", "achieved", "cheapest fixed step", "s", "references apart"],
                                     [[row["problem"], row["quantity"], f"{100 * row['level']:g} %", row["cheapest"], number(row.get("seconds"), 2), number(row.get("achieved"), 2),
@@ -92,9 +96,10 @@ def _page_values(rows, floors, apart, advice, locals_, quick):
         "best_adaptive": describe(min(adaptive, key=lambda row: row["velocity"])), "best_adaptive_error": number(min(row["velocity"] for row in adaptive), 2),
         "best_adaptive_seconds": number(min(adaptive, key=lambda row: row["velocity"])["seconds"], 2),
         "apart_1e6": _when(time, velocity, 1e-6), "apart_1e3": _when(time, velocity, 1e-3), "apart_1e2": _when(time, velocity, 1e-2),
-        "kinetic_most": number(100 * float(kinetic.max()), 2), "repeats": 1 if quick else repeats,
+        "kinetic_most": number(100 * float(kinetic.max()), 2), "full": not quick, "failure_end": failure_end(quick),
+        "timing": "one run each" if quick else f"median of {repeats} runs; those longer than {long_run:g} s are timed once",
         "local": markdown(["problem", "grid", "local equations", "s", "error of velocity", "error of the plate's kinetic energy", "error of the time of first localisation"],
-                          [[problems[row["problem"]].title, describe(row | {"local": "closed-form"}), row["local"], number(row["seconds"], 2), number(row["velocity"], 2),
+                          [[title(problems[row["problem"]], quick), describe(row | {"local": "closed-form"}), row["local"], number(row["seconds"], 2), number(row["velocity"], 2),
                             number(row.get("kinetic energy of the plate"), 2), number(row.get("time of first localisation"), 2)] for row in locals_]),
     }
 

@@ -5,6 +5,7 @@ The program's path comes from the environment variable VITRUM.
 import csv
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -17,30 +18,29 @@ if "VITRUM" not in os.environ:
 os.environ["VITRUM"] = os.path.abspath(os.environ["VITRUM"])
 
 
-def run_study(name, out, *options, tree=source):
+def run_study(name, out, *options):
     """As `./quickstart study` does it, from the project's root."""
-    return subprocess.run([tree / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=tree)
+    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=source)
+
+
+def png_text(path):
+    """The texts that a PNG carries."""
+    from PIL import Image
+    with Image.open(path) as picture:
+        return dict(picture.text)
 
 
 class StudyTest(unittest.TestCase):
-    """Runs the quick variant of `study` once; its files stand in `out`. With `place`, from a copy of the studies, and of the program, in a folder of
-    that name."""
+    """Runs the quick variant of `study` once; its files stand in `out`."""
     study = ""
     options = ()
-    place = None
 
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrum-study-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        tree, program = source, os.environ["VITRUM"]
-        if cls.place is not None:
-            tree = cls.folder / cls.place
-            shutil.copytree(source / "studies", tree / "studies")
-            os.environ["VITRUM"] = str(shutil.copy(program, tree / "the program"))
-            cls.addClassCleanup(os.environ.__setitem__, "VITRUM", program)
-        cls.out = (cls.folder if cls.place is None else tree) / "what came out"
-        done = run_study(cls.study, cls.out, *cls.options, tree=tree)
+        cls.out = cls.folder / "out"
+        done = run_study(cls.study, cls.out, *cls.options)
         if done.returncode != 0:
             raise AssertionError(f"the study failed:\n{done.stdout[-2000:]}\n{done.stderr[-4000:]}")
 
@@ -67,6 +67,19 @@ class StudyTest(unittest.TestCase):
         self.assertNotIn("{{", page)
         for part in (f"./quickstart study {self.study} --quick", "commit", *parts):
             self.assertIn(part, page)
+        # Every picture is there and says which command made it, and of what commit.
+        shown = re.findall(r"\]\(([^)]+\.png)\)", page)
+        self.assertTrue(shown)
+        for name in shown:
+            text = png_text(self.out / name)
+            self.assertEqual(text["vitrum-command"], f"./quickstart study {self.study} --quick")
+            self.assertIn(text["vitrum-commit"], page)
+
+    def assert_page_does_not_state(self, *parts):
+        """What only the whole study has measured."""
+        page = (self.out / "page.md").read_text()
+        for part in parts:
+            self.assertNotIn(part, page)
 
 
 def _value(text):

@@ -8,8 +8,10 @@ class Paper(StudyTest):
     study = "paper"
 
     def test_files(self):
-        self.assert_figures("space-time-R200-v200", "energy-R200-v200", "fronts", "R200-v200-b-snapshots", "R200-v200-b-damage")
-        self.assert_page("no fragmentation occurs at time t = 50", "Sentence by sentence")
+        self.assert_figures("space-time-R200-v200", "energy-R200-v200", "fronts", "R200-v200-b-snapshots", "R200-v200-b-damage", "R200-v200-b-cracks", "R200-v200-b-fragments", "R200-v200-b-fragment-masses")
+        self.assert_page("no fragmentation occurs at time t = 50", "Sentence by sentence", "They end at 60 µs", "up to 60 µs", "2 of its nine cases",
+                         "A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method")
+        self.assert_page_does_not_state("600 µs.", "R = 400 mm", "The nine cases", "CVODE")
 
     def test_cases(self):
         rows = {(row["speed"], row["treatment"]): row for row in

@@ -1,7 +1,8 @@
 """The quick sensitivity study: members differ by rounding, ensembles by a setting, and both show."""
+import sys
 import unittest
 
-from support import StudyTest
+from support import StudyTest, source
 
 
 class Sensitivity(StudyTest):
@@ -9,7 +10,46 @@ class Sensitivity(StudyTest):
 
     def test_files(self):
         self.assert_figures("step", "nodes", "tolerance", "readings", "fragments", "spread")
-        self.assert_page("Robust", "Question by question")
+        self.assert_page("Robust", "Question by question", "runs to 20 µs")
+        self.assert_page_does_not_state("Over cells of", "150 µs", "hundred microseconds")
+
+    def test_labels_and_scales(self):
+        """All six readings: no label stands on another, every axis spans what matters, and a prediction has one scale in all figures."""
+        sys.path.insert(0, str(source / "studies"))
+        from sensitivity import figures
+        from sensitivity.ensembles import questions
+        from sensitivity.predictions import matters, quantities, statistics
+        ensembles = {ensemble.name: ensemble for _, each in questions.values() for ensemble in each}
+        # All agree but in the last nanometre of a place.
+        members = {name: [{key: (2.0 + (1e-7 * n if name == "substep-1e-6" else 0.0)) / scale for key, (_, _, scale) in quantities.items()} for n in range(3)]
+                   for name in ensembles}
+        found = {name: {key: statistics([row[key] for row in rows]) for key in quantities} for name, rows in members.items()}
+        limits = figures.scales(found)
+        for key, least in matters.items():
+            self.assertGreaterEqual(limits[key][1] - limits[key][0], 0.999 * least)
+        drawn = []
+        keep, figures.save = figures.save, lambda figure, folder, name: drawn.append(figure)
+        try:
+            for name, (title, each) in questions.items():
+                figures.question(title, each, members, found, "base", limits, None, name)
+        finally:
+            figures.save = keep
+        scales = set()
+        for figure in drawn:
+            figure.draw_without_rendering()
+            renderer = figure.canvas.get_renderer()
+            scales.add(tuple(axes.get_xlim() for axes in figure.axes))
+            for axes in figure.axes:
+                for axis in (axes.xaxis, axes.yaxis):
+                    boxes = [label.get_window_extent(renderer) for label in axis.get_ticklabels() if label.get_visible() and label.get_text()]
+                    inside = [box for box in boxes if figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1]
+                    for n, box in enumerate(inside):
+                        self.assertFalse(any(box.overlaps(other) for other in inside[:n]), (figure._suptitle.get_text(), [label.get_text() for label in axis.get_ticklabels()]))
+                for label in axes.get_yticklabels():
+                    if label.get_visible():
+                        self.assertGreaterEqual(label.get_window_extent(renderer).x0, 0.0, label.get_text())
+        self.assertEqual(len(drawn), len(questions))
+        self.assertEqual(len(scales), 1)
 
     def test_members(self):
         rows = self.table("members", ["ensemble", "member", "status", "first_time", "separated_mass", "outermost_radius", "cylinder_velocity", "fragments", "perforated"])

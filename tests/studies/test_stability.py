@@ -1,5 +1,4 @@
-"""The quick stability study: limits as theory says, growth in travel, energy, extremes that end well or say why. It runs in a folder whose name asks
-for quotes."""
+"""The quick stability study: limits as theory says, growth in travel, energy, extremes that end well or say why."""
 import unittest
 
 from support import StudyTest
@@ -7,11 +6,11 @@ from support import StudyTest
 
 class Stability(StudyTest):
     study = "stability"
-    place = "a blank, it's and \"quotes\""
 
     def test_files(self):
         self.assert_figures("limits", "growth", "energy")
-        self.assert_page("Largest stable step", "Extremes")
+        self.assert_page("Largest stable step", "Extremes", "to 30 µs")
+        self.assert_page_does_not_state("gimp", "bspline2", "Runs with USL", "quick study)")
 
     def test_limits(self):
         rows = self.table("limits", ["scheme", "shape", "particles_per_cell", "offset", "theory", "measured", "deviation"])

@@ -16,7 +16,8 @@ class Trade(StudyTest):
 
     def test_files(self):
         self.assert_figures("work-precision-impact", "work-precision-onset", "quantities-onset", "quantities-failure", "tolerance", "divergence", "local")
-        self.assert_page("Recommendations", "How far the references agree")
+        self.assert_page("Recommendations", "How far the references agree", "reference case to 2 µs", "one run each")
+        self.assert_page_does_not_state("150 µs", "median of", "gimp", "at never")
 
     def test_fixed_steps_are_of_order_one(self):
         for scheme in ("usf", "musl"):

@@ -46,6 +46,18 @@ TEST_CASE("Cell numbers are floors, for negative positions too", "[mpm][shape]")
   for (const double x : positions()) REQUIRE(cell_of(x) == static_cast<long long>(std::floor(x)));
 }
 
+TEST_CASE("GIMP of particles as large as a cell is the quadratic B-spline, slopes too", "[mpm][shape]") {
+  for (const double x : positions()) {
+    const auto gimp = Shape1<ShapeKind::gimp>::at(x, 0.5), spline = Shape1<ShapeKind::bspline2>::at(x, 0.5);
+    REQUIRE(gimp.first == spline.first);
+    const double rounding = 4e-16 * std::max(1.0, std::abs(x));
+    for (std::size_t k = 0; k < 3; ++k) {
+      REQUIRE(std::abs(gimp.value[k] - spline.value[k]) <= rounding);
+      REQUIRE(std::abs(gimp.slope[k] - spline.slope[k]) <= rounding);
+    }
+  }
+}
+
 TEST_CASE("Shape functions: partition of unity, linear reproduction, no negative value", "[mpm][shape]") {
   for_each_shape([]<ShapeKind kind>(double half) {
     for (const double x : positions()) {
