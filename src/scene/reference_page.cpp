@@ -23,8 +23,8 @@ constexpr std::string_view introduction =
 
 A scene is a TOML file. Everything is SI (m, s, kg, Pa); tension is positive; angles are not used. Unknown keys, wrong types and
 values out of bounds are errors, all of a file at once, each with its line and column. Integers are taken where numbers are
-expected. A number is finite unless its row says that inf is admitted. "The paper" is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point
-Method*; equation numbers are its.
+expected. A number is finite unless its row says that inf is admitted.
+The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*; equation numbers are its.
 
 Any key can be given on the command line, by its dotted path and as a TOML value: `--set time.end=1e-4`,
 `--set 'integrator.scheme="musl"'`. Items of a list go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800` and
