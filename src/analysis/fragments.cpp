@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
@@ -90,6 +91,21 @@ std::vector<ConnectedPiece> connected_pieces(const System& system) {
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.particles.size() > b.particles.size(); });
   return all;
+}
+
+std::vector<std::vector<double>> piece_numbers(const System& system) {
+  const auto separates = [](const Body& body) { return body.material->parameters().decohesion.has_value(); };
+  if (std::none_of(system.bodies.begin(), system.bodies.end(), separates)) return {};
+  constexpr double separated = -1.0, not_modelled = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::vector<double>> numbers;
+  for (const Body& body : system.bodies)
+    numbers.emplace_back(body.particles.size, separates(body) ? separated : not_modelled);
+  double number = 0.0;
+  for (const ConnectedPiece& piece : connected_pieces(system)) {
+    for (const std::size_t particle : piece.particles) numbers[piece.body][particle] = number;
+    number += 1.0;
+  }
+  return numbers;
 }
 
 std::vector<Fragment> fragments(const System& system, const std::vector<ConnectedPiece>& pieces) {

@@ -17,6 +17,10 @@ struct ConnectedPiece {
 /// piece: they are where the cracks run.
 std::vector<ConnectedPiece> connected_pieces(const System& system);
 
+/// For each body, in storage order: the number of the piece to which a particle belongs, 0 for the first; -1
+/// for separated particles; NaN where the material cannot separate. No columns where none can.
+std::vector<std::vector<double>> piece_numbers(const System& system);
+
 /// Mass, centre and velocity of the pieces, by falling mass.
 std::vector<Fragment> fragments(const System& system, const std::vector<ConnectedPiece>& pieces);
 

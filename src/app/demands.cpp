@@ -33,10 +33,17 @@ double multiples(const Scene& scene, const std::optional<double>& interval) {
   return interval ? std::floor((scene.end - scene.start) / *interval) : 0.0;
 }
 
-double size_on_disk(const std::filesystem::path& file) {
+/// What an earlier run's outputs and checkpoint take.
+double size_of_outputs(const std::filesystem::path& folder) {
   std::error_code failure;
-  const std::uintmax_t size = std::filesystem::file_size(file, failure);
-  return failure ? 0.0 : static_cast<double>(size);
+  double bytes = 0.0;
+  const auto add = [&](const std::filesystem::path& file) {
+    if (const std::uintmax_t size = std::filesystem::file_size(file, failure); !failure)
+      bytes += static_cast<double>(size);
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "steps", failure)) add(entry.path());
+  add(folder / "result.h5"), add(folder / "checkpoint.h5");
+  return bytes;
 }
 
 }  // namespace
@@ -144,18 +151,22 @@ void require_clock(const Scene& scene, const System& system) {
 double disk_space_of(const Scene& scene, const System& system, bool with_fields) {
   const std::vector<const Material*> materials = output::materials_of(system.bodies);
   const auto particles = static_cast<double>(system.particle_count());
-  constexpr double of_dataset = 2000.0, of_series = 30.0 * 8.0;  // structure of result.h5 and result.xdmf
-  double of_output = of_dataset + of_series, of_checkpoint = 0.0;
+  const auto bodies = static_cast<double>(system.bodies.size());
+  // Structure of an output's files; in result.h5 and result.xdmf, a link to it and a row of the series.
+  constexpr double of_file = 2500.0, of_dataset = 1300.0, of_drawn_dataset = 600.0, of_door = 400.0;
+  double of_output = of_file + of_door, of_checkpoint = 0.0;
   if (with_fields)
-    for (const std::string& field : output::select_fields(scene, materials))
-      of_output += of_dataset + 8.0 * particles * static_cast<double>(output::components_of(field));
+    for (const std::string& field : output::select_fields(scene, materials)) {
+      const auto components = static_cast<double>(output::components_of(field));
+      of_output += of_dataset + bodies * of_drawn_dataset +
+                   8.0 * particles * (components + std::ceil(1.5 * components));
+    }
   for (const Body& body : system.bodies)
     of_checkpoint += static_cast<double>(body.particles.size) *
                      (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->variables().size())));
   const double outputs = multiples(scene, scene.output.every) + (scene.output.every ? 2.0 : 1.0);
-  // Of each file there are two while it is renewed.
-  return 2.0 *
-         (outputs * of_output + 16.0 * particles + (scene.output.checkpoint_every ? of_checkpoint : 0.0));
+  // Of the checkpoint there are two while it is renewed.
+  return outputs * of_output + 60.0 * particles + 2.0 * (scene.output.checkpoint_every ? of_checkpoint : 0.0);
 }
 
 void require_disk(const Scene& scene, double bytes, const std::filesystem::path& folder) {
@@ -165,8 +176,7 @@ void require_disk(const Scene& scene, double bytes, const std::filesystem::path&
   constexpr double ordinary = 1e11;
   if (bytes <= ordinary) return;
   double available = available_disk(folder);
-  for (const char* name : {"result.h5", ".result.h5.next", "checkpoint.h5", ".checkpoint.h5.next"})
-    available += size_on_disk(folder / name);
+  available += size_of_outputs(folder);
   if (bytes <= available) return;
   const double outputs = multiples(scene, scene.output.every) + 2.0;
   throw InputError(fmt::format(

@@ -45,7 +45,7 @@ void require_time(const Scene& scene, const System& system, const Work& work, in
 /// Throws InputError when times are so far from 0 that their last digit is not small beside a step.
 void require_clock(const Scene& scene, const System& system);
 
-/// Bytes of the files that a run leaves, and of the shadows that it keeps beside them.
+/// Bytes of the files that a run leaves, and of those in the making.
 double disk_space_of(const Scene& scene, const System& system, bool with_fields);
 
 /// Throws InputError when the files of a run do not fit into its folder, where those of an earlier run make

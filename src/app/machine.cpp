@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -11,6 +12,9 @@
 
 namespace vitrum::app {
 namespace {
+
+/// Set before main() begins.
+const std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -41,6 +45,10 @@ double limit_of_group() {
 }
 
 }  // namespace
+
+double process_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - process_start).count();
+}
 
 double available_memory() {
   return std::min({left_on_machine(), left_of_limit(), limit_of_group()});

@@ -3,6 +3,9 @@
 
 namespace vitrum::app {
 
+/// Seconds since this process has started.
+double process_seconds();
+
 /// Bytes of memory that this process can still have: what the machine has left, and less where a limit on the
 /// process (ulimit -v) or its control group says so.
 double available_memory();

@@ -23,7 +23,7 @@ void visit_numbers(State& s, Visit&& visit) {
         i.counters.limited_by_accuracy, i.counters.limited_by_output, i.next_step, i.error.position,
         i.error.velocity, i.error.strain, i.error.total, i.remap_loss, i.phases, i.counters.limited_by_remap);
   visit("progress", s.outputs, s.checkpoints, s.energy_times, s.energy_rows, s.energy_step, s.result_steps,
-        s.evaluations, s.events, s.last_step, s.wall_seconds);
+        s.evaluations, s.events, s.last_step, s.wall_seconds, s.earlier_seconds);
   auto& c = s.solver;
   visit("solver", c.increments, c.solves, c.steps, c.right_hand_sides, c.failures);
 }

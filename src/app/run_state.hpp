@@ -24,7 +24,8 @@ struct RunState {
   std::int64_t evaluations = 0, events = 0;
   double last_step = 0.0;  ///< s
   SolverCounters solver;
-  double wall_seconds = 0.0;
+  double wall_seconds = 0.0;     ///< in the time loop
+  double earlier_seconds = 0.0;  ///< of the processes that this run goes on from, from start to checkpoint
 };
 
 /// Enters the state into a checkpoint, and takes it out again. Throws FileError for a checkpoint that lacks a

@@ -78,10 +78,9 @@ int Simulation::run_to_end() {
   return finish(output::RunStatus::complete, "", exit_done);
 }
 
-/// Something could not be written. All that was computed so far is in memory: with the space of the result's
-/// shadow given back, a checkpoint may still find room.
+/// Something could not be written. All that was computed so far is in memory: a checkpoint may still find
+/// room where an output did not.
 int Simulation::give_up(const std::string& cause) {
-  folder_.holds() ? result_->close() : result_->abandon();
   std::string message = fmt::format("t = {:.6e} s: {}", system_.time, cause);
   try {
     write_checkpoint();
@@ -95,7 +94,7 @@ int Simulation::give_up(const std::string& cause) {
 
 bool Simulation::ended() const {
   // Not just the time: a run interrupted by its last step, and resumed, still has to write.
-  return !result_->steps().empty() && result_->steps().back().time >= scene_.end;
+  return result_->outputs() > 0 && result_->last_time() >= scene_.end;
 }
 
 bool Simulation::advance_to(double target) {

@@ -5,6 +5,7 @@
 
 #include "analysis/energy_ledger.hpp"
 #include "analysis/failure.hpp"
+#include "app/machine.hpp"
 #include "app/progress.hpp"
 #include "app/run_command.hpp"
 #include "app/run_state.hpp"
@@ -53,6 +54,8 @@ class Simulation final : private StepObserver {
   output::RunSummary summary(output::RunStatus status, const std::string& message) const;
   std::string summary_text(const output::RunSummary& summary) const;
   Warnings closing_warnings(const output::RunSummary& summary) const;
+  /// Of this process, and of those that it goes on from.
+  double total_seconds() const { return state_.earlier_seconds + process_seconds(); }
   EnergyTotals shown_energy() const { return scaled(ledger_.totals(), whole_); }
 
   const Scene& scene_;

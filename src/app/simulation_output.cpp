@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "analysis/fragments.hpp"
 #include "app/simulation.hpp"
 #include "output/particle_fields.hpp"
-#include "output/xdmf.hpp"
 #include "scene/input_error.hpp"
 #include "scene/write_scene.hpp"
 
@@ -76,16 +76,19 @@ void Simulation::require_folder() {
 
 void Simulation::write_output() {
   require_folder();
-  output::OutputFrame frame{system_.time, system_.step_index, {}, series()};
-  if (!fields_.empty()) frame.fields = output::particle_fields(system_.bodies, fields_, scene_.geometry);
+  output::OutputFrame frame{system_.time, system_.step_index, {}, series(), {}};
+  if (!fields_.empty()) {
+    frame.fields = output::particle_fields(system_.bodies, fields_, scene_.geometry);
+    frame.fragment = output::in_rows(system_.bodies, piece_numbers(system_));
+  }
   result_->append(frame);
-  if (!fields_.empty()) output::write_xdmf(*result_);
-  state_.result_steps = static_cast<std::int64_t>(result_->steps().size());
+  state_.result_steps = static_cast<std::int64_t>(result_->outputs());
   progress_.output(system_.time, integrator_->state().counters, shown_energy());
 }
 
 void Simulation::write_checkpoint() {
   require_folder();
+  result_->settle();  // what the checkpoint knows of shall be there whenever it is
   output::Checkpoint checkpoint{system_.time,
                                 system_.step_index,
                                 provenance_.scene_sha256,
@@ -100,7 +103,9 @@ void Simulation::write_checkpoint() {
   state_.solver = system_.constitutive_solver;
   state_.coasting.clear();
   for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
-  store(state_, checkpoint);
+  RunState stored = state_;
+  stored.earlier_seconds = total_seconds();
+  store(stored, checkpoint);
   checkpoint.texts = {{"scene", resolved_toml(scene_)}, {"command", resuming_command(options_)}};
   output::write_checkpoint(directory_ / "checkpoint.h5", checkpoint);
 }

@@ -8,7 +8,6 @@
 #include "mpm/initial_state.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
-#include "output/xdmf.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_differences.hpp"
 #include "scene/write_scene.hpp"
@@ -67,10 +66,6 @@ void Simulation::resume() {
       output::EnergyCsv::reopen(directory_ / "energy.csv", static_cast<std::size_t>(state_.energy_rows));
   // What the run left when it was interrupted would speak for what follows.
   output::remove_file(directory_ / "summary.json");
-  if (result_->steps().empty())
-    output::remove_file(directory_ / "result.xdmf");
-  else if (!fields_.empty())
-    output::write_xdmf(*result_);
   write_due_energy_row();  // a run that could not write it ends with a checkpoint all the same
 }
 

@@ -74,7 +74,7 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
   s.warnings.insert(s.warnings.end(), found.begin(), found.end());
   try {
     require_folder();
-    result_->close();
+    result_->settle();
     output::write_summary(directory_ / "summary.json", s);
   } catch (const FileError& error) {
     if (status == output::RunStatus::complete) return give_up(error.what());
@@ -120,6 +120,7 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.time = system_.time;
   s.particles = system_.particle_count();
   s.wall_seconds = state_.wall_seconds;
+  s.total_seconds = total_seconds();
   s.threads = system_.team->size();
   s.integrator_method = scene::name_of(scene::grid_method_names, scene_.integrator.method);
   s.constitutive_method = scene::name_of(scene::local_method_names, scene_.constitutive.method);

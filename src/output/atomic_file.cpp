@@ -10,9 +10,33 @@
 namespace vitrum::output {
 namespace {
 
-void sync_directory_of(const std::filesystem::path& path) {
-  const std::filesystem::path directory = path.has_parent_path() ? path.parent_path() : ".";
-  Descriptor(directory, O_RDONLY | O_DIRECTORY).sync();
+enum class Force { no, yes };
+
+/// Gives `next` the name `path`. Where there is such a file and neither is to be forced to disk, the two
+/// change names, and the former is removed: a file that is renamed over another is written to disk at once by
+/// ext4, for whose removal at the next renewal one would have to wait.
+void rename_to(const std::filesystem::path& next, const std::filesystem::path& path, Force force) {
+  if (force == Force::no && renameat2(AT_FDCWD, next.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0)
+    return remove_file(next);
+  if (std::rename(next.c_str(), path.c_str()) != 0) throw_file_error(path, "replace", errno);
+}
+
+void write_and_rename(const std::filesystem::path& path, std::string_view text, Force force) {
+  const std::filesystem::path next = next_of(path);
+  try {
+    Descriptor file(next, O_WRONLY | O_CREAT | O_TRUNC);
+    file.write(text);
+    if (force == Force::yes) file.sync();
+    file.close();
+    rename_to(next, path, force);
+  } catch (...) {
+    std::error_code missing;
+    std::filesystem::remove(next, missing);
+    throw;
+  }
+  if (force == Force::no) return;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  Descriptor(folder, O_RDONLY | O_DIRECTORY).sync();
 }
 
 }  // namespace
@@ -21,41 +45,16 @@ std::filesystem::path next_of(const std::filesystem::path& path) {
   return path.parent_path() / ("." + path.filename().string() + ".next");
 }
 
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write) {
-  const std::filesystem::path next = next_of(path);
-  try {
-    write(next);
-    replace_with(next, path);
-  } catch (...) {
-    std::error_code missing;
-    std::filesystem::remove(next, missing);
-    throw;
-  }
+void put_in_place(const std::filesystem::path& path, std::string_view text) {
+  write_and_rename(path, text, Force::no);
 }
 
 void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
-  write_atomically(path, [text](const std::filesystem::path& next) {
-    Descriptor file(next, O_WRONLY | O_CREAT | O_TRUNC);
-    file.write(text);
-    file.close();
-  });
+  write_and_rename(path, text, Force::yes);
 }
 
-void replace_with(const std::filesystem::path& path, const std::filesystem::path& target) {
-  Descriptor(path, O_RDONLY).sync();
-  if (std::rename(path.c_str(), target.c_str()) != 0) throw_file_error(target, "replace", errno);
-  sync_directory_of(target);
-}
-
-bool exchange_with(const std::filesystem::path& path, const std::filesystem::path& target) {
-  Descriptor(path, O_RDONLY).sync();
-  if (renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) != 0) {
-    if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP) return false;
-    throw_file_error(target, "exchange with its successor", errno);
-  }
-  sync_directory_of(target);
-  return true;
+void force_to_disk(const std::filesystem::path& folder) {
+  Descriptor(folder, O_RDONLY | O_DIRECTORY).sync_file_system();
 }
 
 void remove_file(const std::filesystem::path& path) {

@@ -1,31 +1,24 @@
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <string_view>
 
 namespace vitrum::output {
 
-/// Writes `text` so that `path` holds either what it held before or all of `text`, whenever the process or
-/// the machine stops: a hidden file beside it is written, forced to disk and renamed over it. Throws
-/// FileError.
+/// Writes `text` so that `path` holds either what it held before or all of `text`, whenever the process
+/// stops: a hidden file beside it is written and renamed over it; when that fails it is removed: it may hold
+/// the space that is missing. Whether a power cut finds it on disk is left to the system, until
+/// force_to_disk(). Throws FileError.
+void put_in_place(const std::filesystem::path& path, std::string_view text);
+
+/// The same, also when the machine stops: forced to disk.
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// The same for what `write` writes into the file whose path it is given. When it or what follows throws, the
-/// hidden file is removed: it may hold the space that is missing.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
+/// Forces to disk all that has been written in `folder`, by one call however many files that are; it waits
+/// for what others have written to the same file system. Throws FileError.
+void force_to_disk(const std::filesystem::path& folder);
 
 /// Name of the hidden file beside `path` that is prepared to take its place: "DIR/.NAME.next".
 std::filesystem::path next_of(const std::filesystem::path& path);
-
-/// Forces `path` to disk, renames it to `target` (replacing it) and forces the directory to disk. Throws
-/// FileError.
-void replace_with(const std::filesystem::path& path, const std::filesystem::path& target);
-
-/// Forces `path` to disk and lets `path` and `target`, which must both exist, change names in one atomic
-/// step. Returns false, with nothing changed, where the file system cannot do that. Throws FileError
-/// otherwise.
-bool exchange_with(const std::filesystem::path& path, const std::filesystem::path& target);
 
 /// Removes the file if there is one. Throws FileError.
 void remove_file(const std::filesystem::path& path);

@@ -10,7 +10,7 @@
 #include "output/checkpoint_header.hpp"
 #include "output/hdf5.hpp"
 #include "output/regular_file.hpp"
-#include "output/result_file.hpp"
+#include "output/result_layout.hpp"
 #include "output/sha256.hpp"
 
 namespace vitrum::output {

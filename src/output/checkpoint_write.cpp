@@ -1,15 +1,14 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
 #include "output/checkpoint_header.hpp"
-#include "output/descriptor.hpp"
 #include "output/hdf5.hpp"
-#include "output/result_file.hpp"
+#include "output/result_layout.hpp"
 #include "output/sha256.hpp"
 
 namespace vitrum::output {
@@ -29,9 +28,7 @@ void write_body(const Group& group, const BodyCheckpoint& body) {
     if (!column->empty()) variables.write(name, *column);
 }
 
-void write_content(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  File file = File::create(path, checkpoint_header_size);
-  const Group& root = file.root();
+void write_content(const Group& root, const Checkpoint& checkpoint) {
   root.set_attribute(".", "time", checkpoint.time);
   root.set_attribute(".", "step_index", checkpoint.step_index);
   root.set_attribute(".", "scene_sha256", checkpoint.scene_sha256);
@@ -41,21 +38,19 @@ void write_content(const std::filesystem::path& path, const Checkpoint& checkpoi
   const Group numbers = root.create_group("numbers"), texts = root.create_group("texts");
   for (const auto& [name, values] : checkpoint.numbers) require_name(name), numbers.write(name, values);
   for (const auto& [name, text] : checkpoint.texts) require_name(name), texts.write_text(name, text);
-  file.close();
-}
-
-/// HDF5 leaves the first bytes of the file to its user: they take the header line.
-void write_header_line(const std::filesystem::path& path) {
-  Descriptor(path, O_WRONLY).write(checkpoint_header(sha256_of_file(path, checkpoint_header_size)));
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  write_atomically(path, [&checkpoint](const std::filesystem::path& next) {
-    write_content(next, checkpoint);
-    write_header_line(next);
-  });
+  File file = File::create(path, checkpoint_header_size);
+  write_content(file.root(), checkpoint);
+  const std::span<char> bytes = file.close();
+  // HDF5 leaves the first bytes of the file to its user: they take the header line.
+  const std::string_view all(bytes.data(), bytes.size());
+  const std::string line = checkpoint_header(sha256(all.substr(checkpoint_header_size)));
+  std::copy(line.begin(), line.end(), bytes.begin());
+  write_text_atomically(path, all);
 }
 
 std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies) {

@@ -63,13 +63,10 @@ FieldDifference difference(const Field& a, const Field& b) {
 
 TimeDifference compare_outputs(const ResultReader& a, std::size_t i, const ResultReader& b, std::size_t j) {
   TimeDifference at{a.steps()[i].time, {}};
-  for (const StoredField& stored : a.steps()[i].fields) {
-    const auto& others = b.steps()[j].fields;
-    const bool both = std::any_of(others.begin(), others.end(), [&](const StoredField& f) {
-      return f.name == stored.name && f.components == stored.components;
-    });
-    if (!both) continue;
-    const Field x = a.field(i, stored.name), y = b.field(j, stored.name);
+  const OutputReader first = a.output(i), second = b.output(j);
+  for (const StoredField& stored : first.fields()) {
+    if (!second.has(stored)) continue;
+    const Field x = first.field(stored.name), y = second.field(stored.name);
     if (x.values.size() == y.values.size()) at.fields.push_back(difference(x, y));
   }
   return at;

@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,19 +43,10 @@ void Descriptor::fail(std::string_view action, int reason) const {
   throw_file_error(path_, action, reason);
 }
 
-FileVersion Descriptor::version() const {
+std::uint64_t Descriptor::size() const {
   struct stat status {};
-  if (fstat(number_, &status) != 0) fail("tell size and time", errno);
-  return {status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size), status.st_mtim.tv_sec,
-          status.st_mtim.tv_nsec};
-}
-
-bool Descriptor::lock_for_writing() {
-  return lock_file(number_, true);
-}
-
-bool Descriptor::lock_for_reading() {
-  return lock_file(number_, false);
+  if (fstat(number_, &status) != 0) fail("tell its size", errno);
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 void Descriptor::write(std::string_view text) {
@@ -66,26 +55,6 @@ void Descriptor::write(std::string_view text) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("write", errno);
     text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-void Descriptor::write_all_of(const Descriptor& source) {
-  constexpr std::size_t at_a_time = std::size_t{1} << 30;
-  ssize_t written = 0;
-  do written = sendfile(number_, source.number_, nullptr, at_a_time);
-  while (written > 0 || (written < 0 && errno == EINTR));
-  if (written < 0) fail(fmt::format("copy {} to it", source.path_.string()), errno);
-}
-
-void Descriptor::write_part_of(const Descriptor& source, const ByteRange& part) {
-  const std::string action = fmt::format("copy {} to it", source.path_.string());
-  auto from = static_cast<off_t>(part.begin);
-  const auto end = static_cast<off_t>(part.begin + part.size);
-  if (lseek(number_, from, SEEK_SET) < 0) fail(action, errno);
-  while (from < end) {
-    const ssize_t written = sendfile(number_, source.number_, &from, static_cast<std::size_t>(end - from));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail(action, written < 0 ? errno : EIO);
   }
 }
 
@@ -98,12 +67,12 @@ void Descriptor::sync() {
   if (fsync(number_) != 0 && errno != EINVAL) fail("force to disk", errno);
 }
 
-void Descriptor::close() {
-  if (::close(std::exchange(number_, -1)) != 0) fail("close", errno);
+void Descriptor::sync_file_system() {
+  if (syncfs(number_) != 0 && errno != EINVAL) fail("force to disk", errno);
 }
 
-bool lock_file(int descriptor, bool exclusive) {
-  return flock(descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+void Descriptor::close() {
+  if (::close(std::exchange(number_, -1)) != 0) fail("close", errno);
 }
 
 }  // namespace vitrum::output

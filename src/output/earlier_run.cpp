@@ -8,6 +8,7 @@
 #include "output/atomic_file.hpp"
 #include "output/energy_csv.hpp"
 #include "output/json_file.hpp"
+#include "output/result_file.hpp"
 #include "output/result_reader.hpp"
 #include "scene/input_error.hpp"
 
@@ -60,6 +61,7 @@ std::vector<std::string> traces_of_run(const std::filesystem::path& folder) {
     if (const std::string text = trace(folder / name); !text.empty()) traces.push_back(text);
   };
   look("result.h5", result_trace);
+  if (!present(result_path(folder)) && has_outputs(folder)) traces.emplace_back("outputs in steps/");
   look("checkpoint.h5", [](const std::filesystem::path&) { return std::string("checkpoint.h5"); });
   look("summary.json", summary_trace);
   look("energy.csv", foreign_energy_csv);
@@ -68,11 +70,16 @@ std::vector<std::string> traces_of_run(const std::filesystem::path& folder) {
 
 void remove_run(const std::filesystem::path& folder) {
   for (const char* name : files) remove_file(folder / name);
+  remove_outputs(folder, 0);
+  remove_file(particles_path(folder));
   remove_unfinished(folder);
+  std::error_code not_empty;
+  std::filesystem::remove(steps_path(folder), not_empty);
 }
 
 void remove_unfinished(const std::filesystem::path& folder) {
   for (const char* name : files) remove_file(next_of(folder / name));
+  remove_file(next_of(particles_path(folder)));
 }
 
 }  // namespace vitrum::output

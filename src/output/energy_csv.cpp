@@ -13,7 +13,7 @@
 namespace vitrum::output {
 
 EnergyCsv::EnergyCsv(const std::filesystem::path& path, std::size_t rows)
-    : file_(path, O_WRONLY | O_APPEND), size_(file_.version().size), rows_(rows) {}
+    : file_(path, O_WRONLY | O_APPEND), size_(file_.size()), rows_(rows) {}
 
 EnergyCsv EnergyCsv::create(const std::filesystem::path& path) {
   write_text_atomically(path, std::string(header) + '\n');

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "output/descriptor.hpp"
 #include "scene/input_error.hpp"
 
 namespace vitrum::output {
@@ -86,6 +85,8 @@ class Group {
   void create_series(const std::string& name) const;
   /// Writes one row of such an array, extending it when necessary.
   void write_row(const std::string& name, std::size_t row, double value) const;
+  /// Drops all rows of such an array but the first `rows`.
+  void keep_rows(const std::string& name, std::size_t rows) const;
 
   /// Attributes of the member `object`; "." is the group itself. Texts are stored twice: `name` for other
   /// readers, ".name" for text_attribute.
@@ -97,8 +98,10 @@ class Group {
   double number_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
-  /// Copies member `name` with all below it into `target`, under the same name.
-  void copy(const std::string& name, const Group& target) const;
+  /// New member that is a group of another file; `file` is relative to the folder of this one.
+  void link_to_file(const std::string& name, const std::string& file, const std::string& group) const;
+  /// Removes a member.
+  void remove(const std::string& name) const;
 
   const std::string& label() const { return label_; }
 
@@ -110,37 +113,39 @@ class Group {
   /// A single value of one of the `stored` types.
   void read_single(const std::string& object, const std::string& name, std::array<hid_t, 2> stored,
                    hid_t native, void* value) const;
-  void copy_attributes(const std::string& object, const Group& target) const;
 
   Handle handle_;
   std::string label_;
 };
 
-struct FileRecord;
+class FileImage;
 
-/// An open HDF5 file. Files are created in the HDF5 1.10 format, whose metadata all carry checksums (in
-/// earlier ones the index of chunks does not).
+/// An HDF5 file. Files are made in memory, and reach the disk as a whole: so HDF5, of which version 1.10 does
+/// not survive the news that a write has failed, never writes to one. They have the HDF5 1.10 format, whose
+/// metadata all carry checksums (in earlier ones the index of chunks does not).
 class File {
  public:
-  /// Replaces an existing file. user_block: bytes left free at the start, 0 or a power of two >= 512.
-  static File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
+  /// An empty file in memory. path: where it is going to be, for messages. user_block: bytes left free at
+  /// the start, 0 or a power of two >= 512.
+  static File create(const std::filesystem::path& path, std::size_t user_block = 0);
+  /// A file in memory that begins as a copy of `bytes` (which HDF5 does not change).
+  static File open_image(const std::filesystem::path& path, std::string& bytes);
   static File open_to_read(const std::filesystem::path& path);
-  static File open_to_write(const std::filesystem::path& path);
-
-  const Group& root() const { return root_; }
   ~File();
   File(File&&) noexcept;
-  /// Writes everything out and closes; the only way to learn that something could not be written (the disk is
-  /// full). Returns which bytes have been written since the file was opened, by rising place. The file may
-  /// not be used afterwards.
-  std::vector<ByteRange> close();
+
+  const Group& root() const { return root_; }
+  /// Closes a file in memory; its bytes as they are to stand on disk, which live as long as this object. It
+  /// may not be used otherwise afterwards.
+  std::span<char> close();
 
  private:
-  File(const std::filesystem::path& path, std::unique_ptr<FileRecord> record, Handle handle);
-  static File open(const std::filesystem::path& path, unsigned flags, const std::string& action);
+  File(const std::filesystem::path& path, std::unique_ptr<FileImage> image, std::size_t user_block,
+       Handle handle);
 
   std::string path_;
-  std::unique_ptr<FileRecord> record_;  ///< must outlive the handle
+  std::unique_ptr<FileImage> image_;  ///< must outlive the handle
+  std::size_t user_block_;
   Handle handle_;
   Group root_;
 };

@@ -123,4 +123,14 @@ void Group::write_row(const std::string& name, std::size_t row, double value) co
           "write a row");
 }
 
+void Group::keep_rows(const std::string& name, std::size_t rows) const {
+  const std::string where = member(name);
+  const Handle dataset = open_array(handle_.id(), name, where);
+  const hsize_t size = rows;
+  if (const Extent stored = readable_extent<double>(dataset, where);
+      stored.columns != 1 || stored.rows < rows)
+    throw Hdf5Error(fmt::format("{}: has {} rows, expected {} at least", where, stored.rows, rows));
+  checked(H5Dset_extent(dataset.id(), &size), where, "shorten the series");
+}
+
 }  // namespace vitrum::output

@@ -45,6 +45,16 @@ Group Group::open_group(const std::string& name) const {
       member(name));
 }
 
+void Group::link_to_file(const std::string& name, const std::string& file, const std::string& group) const {
+  checked(
+      H5Lcreate_external(file.c_str(), group.c_str(), handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      member(name), "create the link");
+}
+
+void Group::remove(const std::string& name) const {
+  checked(H5Ldelete(handle_.id(), name.c_str(), H5P_DEFAULT), member(name), "remove it");
+}
+
 bool Group::has(const std::string& name) const {
   return checked(H5Lexists(handle_.id(), name.c_str(), H5P_DEFAULT), member(name), "look for the object") > 0;
 }

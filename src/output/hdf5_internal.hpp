@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "output/descriptor.hpp"
 #include "output/hdf5.hpp"
 
 namespace vitrum::output {

@@ -31,9 +31,9 @@ Json bodies_of(const ResultReader& result) {
 Json fields_of(const ResultReader& result) {
   Json fields = Json::object();
   if (result.steps().empty()) return fields;
-  const std::size_t last = result.steps().size() - 1;
-  for (const StoredField& stored : result.steps()[last].fields) {
-    const Field field = result.describe_field(last, stored.name);
+  const OutputReader last = result.output(result.steps().size() - 1);
+  for (const StoredField& stored : last.fields()) {
+    const Field field = last.describe_field(stored.name);
     fields[field.name] = {
         {"unit", field.unit}, {"components", field.components}, {"description", field.description}};
   }
@@ -65,10 +65,8 @@ Json describe(const ResultReader& result) {
   const Provenance stored = result.provenance();
   for (const ProvenanceEntry& entry : provenance_entries)
     provenance[std::string(entry.name)] = stored.*entry.member;
-  for (std::size_t s = 0; s < result.steps().size(); ++s)
-    steps.push_back({{"name", result.steps()[s].name},
-                     {"time", number(result.steps()[s].time)},
-                     {"step_index", result.step_index(s)}});
+  for (const StoredStep& step : result.steps())
+    steps.push_back({{"name", step.name}, {"time", number(step.time)}, {"step_index", step.step_index}});
   return {{"file", result.path().string()}, {"title", result.title()}, {"provenance", provenance},
           {"bodies", bodies_of(result)},    {"outputs", steps},        {"fields", fields_of(result)},
           {"series", series_of(result)}};

@@ -30,6 +30,8 @@ struct OutputFrame {
   std::int64_t step_index = 0;  ///< time steps taken so far
   std::vector<Field> fields;    ///< all with the same particles; empty: no particle data
   std::vector<SeriesValue> series;
+  std::vector<double>
+      fragment;  ///< number of each particle's fragment, for drawing; empty: nothing can separate
 };
 
 /// What is constant per particle; the order is that of every Field.
@@ -37,6 +39,7 @@ struct ParticleConstants {
   std::vector<std::string> bodies;  ///< names
   std::vector<std::uint32_t> body;  ///< index into `bodies`
   std::vector<double> mass;         ///< in `mass_unit`
+  std::vector<double> size;         ///< m, side of the particle's square at the start
   std::string mass_unit;            ///< "kg" (axisymmetric: of the whole ring) or "kg/m"
 };
 

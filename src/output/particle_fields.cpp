@@ -38,14 +38,30 @@ PointState point_of(const Particles& particles, std::size_t index) {
   return state;
 }
 
-/// Appends `count` rows whose components are read from columns of every body.
+/// For each body, its particles in the order of rows.
+using Rows = std::vector<std::vector<std::size_t>>;
+
+Rows rows_of(std::span<const Body> bodies) {
+  Rows rows;
+  for (const Body& body : bodies) rows.push_back(identity_order(body.particles));
+  return rows;
+}
+
+std::size_t count(const Rows& rows) {
+  std::size_t sum = 0;
+  for (const auto& body : rows) sum += body.size();
+  return sum;
+}
+
+/// Rows whose components are read from columns of every body.
 template <std::size_t components, class Columns>
-Field gather(std::span<const Body> bodies, const Columns& columns_of) {
+Field gather(std::span<const Body> bodies, const Rows& rows, const Columns& columns_of) {
   Field field;
   field.components = components;
-  for (const Body& body : bodies) {
-    const std::array<std::vector<double>, components>& columns = columns_of(body);
-    for (const std::size_t index : identity_order(body.particles))
+  field.values.reserve(components * count(rows));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::array<std::vector<double>, components>& columns = columns_of(bodies[b]);
+    for (const std::size_t index : rows[b])
       for (const std::vector<double>& column : columns) field.values.push_back(column[index]);
   }
   return field;
@@ -53,12 +69,13 @@ Field gather(std::span<const Body> bodies, const Columns& columns_of) {
 
 /// One value a particle; not_modelled for bodies that `has` denies.
 template <class Has, class Value>
-Field gather_scalar(std::span<const Body> bodies, const Has& has, const Value& value) {
+Field gather_scalar(std::span<const Body> bodies, const Rows& rows, const Has& has, const Value& value) {
   Field field;
-  for (const Body& body : bodies) {
-    const bool present = has(body);
-    for (const std::size_t index : identity_order(body.particles))
-      field.values.push_back(present ? value(body, index) : not_modelled);
+  field.values.reserve(count(rows));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const bool present = has(bodies[b]);
+    for (const std::size_t index : rows[b])
+      field.values.push_back(present ? value(bodies[b], index) : not_modelled);
   }
   return field;
 }
@@ -78,43 +95,44 @@ bool has_variable(const Material& material, Variable variable) {
                      [variable](const VariableInfo& info) { return info.variable == variable; });
 }
 
-Field variable_field(std::span<const Body> bodies, const VariableInfo& info) {
+Field variable_field(std::span<const Body> bodies, const Rows& rows, const VariableInfo& info) {
   const auto slot = static_cast<std::size_t>(info.variable);
   return named(
       gather_scalar(
-          bodies, [slot](const Body& body) { return !body.particles.variables[slot].empty(); },
+          bodies, rows, [slot](const Body& body) { return !body.particles.variables[slot].empty(); },
           [slot](const Body& body, std::size_t index) { return body.particles.variables[slot][index]; }),
       std::string(info.name), std::string(info.unit), std::string(info.description) + "; NaN: not modelled");
 }
 
-Field field_of(std::span<const Body> bodies, const std::string& name, Geometry geometry) {
+Field field_of(std::span<const Body> bodies, const Rows& rows, const std::string& name, Geometry geometry) {
   const bool axisymmetric = geometry == Geometry::axisymmetric;
   const std::string vector = axisymmetric ? "(r, z)" : "(x, y)";
   const std::string tensor = axisymmetric ? "(rr, zz, tt, rz)" : "(xx, yy, zz, xy)";
   if (name == "position")
     return named(gather<2>(
-                     bodies, [](const Body& b) -> auto& { return b.particles.position; }),
+                     bodies, rows, [](const Body& b) -> auto& { return b.particles.position; }),
                  name, "m", "position " + vector);
   if (name == "velocity")
     return named(gather<2>(
-                     bodies, [](const Body& b) -> auto& { return b.particles.velocity; }),
+                     bodies, rows, [](const Body& b) -> auto& { return b.particles.velocity; }),
                  name, "m/s", "velocity " + vector);
   if (name == "stress")
-    return named(gather<4>(bodies, mpm::stress_of), name, "Pa",
-                 "Cauchy stress " + tensor + ", tension positive");
+    return named(
+        gather<4>(bodies, rows, mpm::stress_of), name, "Pa",
+        "stress, force per area of the unstrained material (Kirchhoff's) " + tensor + ", tension positive");
   if (name == "elastic_strain")
     return named(gather<4>(
-                     bodies, [](const Body& b) -> auto& { return b.particles.elastic_strain; }),
+                     bodies, rows, [](const Body& b) -> auto& { return b.particles.elastic_strain; }),
                  name, "1", "elastic strain " + tensor + ", tensor shear");
   if (name == "damage")
     return named(gather_scalar(
-                     bodies, [](const Body& body) { return has_damage(*body.material); },
+                     bodies, rows, [](const Body& body) { return has_damage(*body.material); },
                      [](const Body& body, std::size_t index) {
                        return body.material->damage(point_of(body.particles, index));
                      }),
                  name, "1", "damage D = 1 - K_bar/K, eq. 8; NaN: not modelled");
   for (const VariableInfo& info : all_variables())
-    if (info.name == name) return variable_field(bodies, info);
+    if (info.name == name) return variable_field(bodies, rows, info);
   throw std::invalid_argument(fmt::format("no field is called '{}'", name));
 }
 
@@ -168,9 +186,17 @@ std::vector<const Material*> materials_of(std::span<const Body> bodies) {
 
 std::vector<Field> particle_fields(std::span<const Body> bodies, std::span<const std::string> names,
                                    Geometry geometry) {
+  const Rows rows = rows_of(bodies);
   std::vector<Field> fields;
-  for (const std::string& name : names) fields.push_back(field_of(bodies, name, geometry));
+  for (const std::string& name : names) fields.push_back(field_of(bodies, rows, name, geometry));
   return fields;
+}
+
+std::vector<double> in_rows(std::span<const Body> bodies, std::span<const std::vector<double>> columns) {
+  std::vector<double> values;
+  for (std::size_t b = 0; b < columns.size(); ++b)
+    for (const std::size_t index : identity_order(bodies[b].particles)) values.push_back(columns[b][index]);
+  return values;
 }
 
 ParticleConstants particle_constants(std::span<const Body> bodies, Geometry geometry) {
@@ -183,6 +209,7 @@ ParticleConstants particle_constants(std::span<const Body> bodies, Geometry geom
     for (const std::size_t particle : identity_order(body.particles)) {
       constants.body.push_back(index);
       constants.mass.push_back(factor * body.particles.mass[particle]);
+      constants.size.push_back(2.0 * body.particle_half_size);
     }
   }
   return constants;

@@ -37,7 +37,11 @@ std::vector<const Material*> materials_of(std::span<const Body> bodies);
 std::vector<Field> particle_fields(std::span<const Body> bodies, std::span<const std::string> names,
                                    Geometry geometry);
 
-/// Body index and mass of all particles in the same order; axisymmetric masses are those of whole rings.
+/// Values of all particles in the same order, of columns in storage order for each body; none for no columns.
+std::vector<double> in_rows(std::span<const Body> bodies, std::span<const std::vector<double>> columns);
+
+/// Body index, mass and size of all particles in the same order; axisymmetric masses are those of whole
+/// rings.
 ParticleConstants particle_constants(std::span<const Body> bodies, Geometry geometry);
 
 }  // namespace vitrum::output

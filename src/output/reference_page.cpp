@@ -14,29 +14,34 @@ A run writes into its output directory:
 | file | what it holds | when it is written |
 |---|---|---|
 | `summary.json` | the run in numbers | at the end, whatever the end was |
-| `result.h5` | particles and series at every output | at every output |
-| `result.xdmf` | opens `result.h5` in ParaView (with any of its three XDMF readers) | at every output |
+| `result.h5` | the door: links to all outputs, the series, the scene, how it was made | at every output |
+| `steps/NNNNN.h5` | the particles at an output, a file each | at that output |
+| `steps/particles.h5` | what is constant of particles: body, mass, size | at the start |
+| `result.xdmf`, `steps/NNNNN.xmf` | open the outputs in ParaView | at every output |
 | `energy.csv` | the energy account | row by row |
 | `checkpoint.h5` | everything a resumed run needs | on a signal, as `output.checkpoint_every` asks, and when something else cannot be written |
 | `failed_point.toml` | the increment of a particle that could not be integrated | at such a failure |
 
 All numbers are SI. Axisymmetric quantities are those of the whole body (not per radian), plane-strain ones are per metre.
+A folder may be moved and copied as a whole: the links in it are relative.
 
 ## What a kill cannot break
 
-- `result.h5`, `result.xdmf`, `summary.json` and `checkpoint.h5` are never written in place. The next version is written to a hidden
-  file (`.NAME.next`), forced to disk and put in place by renaming: at any moment, also after `kill -9` or a power cut, each
-  of them is complete, either in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
-- `result.h5` therefore always holds the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
-  read while the run goes on; a program that has it open keeps the version that it opened. What another program adds between two outputs is
-  kept; during an output the file is locked for reading, and cannot be opened for writing by who honours locks, as HDF5 does.
-- A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line. After a power cut (not
-  after a kill) last rows may be missing.
+- No file but `energy.csv` is ever written in place. Its next version is written to a hidden file (`.NAME.next`) and put in place by renaming:
+  at any moment, also after `kill -9`, each is complete, in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
+- `result.h5` always leads to the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
+  read while the run goes on; a program that has it open keeps the version that it opened. What others write into it is lost at the next output.
+- The door grows with the number of outputs, by some 250 bytes each. So that the time of a run does not grow with the square of that number, it
+  follows in groups of n/512 from the 512th output on, unless a second has passed since. Outputs that it does not show yet are complete all the same.
+- A power cut, unlike a kill, may cost what came after the last checkpoint: outputs are forced to disk when a checkpoint is written and at the end of
+  the run, not one by one. Whole files of outputs may be missing or empty then; `--resume` goes on from the checkpoint.
+- A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
-- Truncated and foreign files are refused with a message. All that `result.h5` holds carries checksums: HDF5's own for its structure
+- Truncated and foreign files are refused with a message. All that HDF5 files hold carries checksums: HDF5's own for their structure
   (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
-  reader, not another value. `vitrum info`, `compare` and `--resume` check what they read.
-- `--resume` cuts `result.h5` and `energy.csv` back to what the checkpoint knows, then continues them. A resumed explicit run gives the
+  reader, not another value. `vitrum info`, `compare` and `--resume` check what they read; they follow no links but open an output by its name,
+  and refuse one whose time is not that of the series.
+- `--resume` removes the outputs that its checkpoint does not know, cuts `energy.csv` back, then continues. A resumed explicit run gives the
   bits of an uninterrupted one; an adaptive run does from a planned checkpoint, and keeps its tolerance from one written on a signal.
 
 ## A folder belongs to one run
@@ -54,33 +59,35 @@ All numbers are SI. Axisymmetric quantities are those of the whole body (not per
 
 ## When something cannot be written
 
-- The run ends with status 4; the message names the file and the system's reason (or that another program has `result.h5` open for writing, or has
-  put one with other outputs in its place). Completed outputs stay as they are. The space of the hidden
-  file is given back, and a checkpoint is tried: where it fits, `--resume` goes on at that very step when the cause has been mended.
+- The run ends with status 4; the message names the file and the system's reason. Completed outputs stay as they are. The space of what
+  could not be completed is given back, and a checkpoint is tried: where it fits, `--resume` goes on at that very step when the cause has been mended.
 - Messages and progress are not part of the result: a terminal that has gone, a broken pipe or a full disk behind them ends no run.
 - SIGINT, SIGTERM and SIGHUP (without `nohup`) end a run after the step under way, with a checkpoint, and status 130, 143 or 129; a second SIGINT, at
   least half a second later, ends it at once and without one.
 
-## `result.h5`
+## `result.h5` and the outputs behind it
 
-HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. Texts are UTF-8; those in datasets have a fixed length
+HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. `/particles` and `/steps/NNNNN` are external links, which
+h5py and other readers follow by themselves. Texts are UTF-8; those in datasets have a fixed length
 (h5py hands them out as bytes). Those in attributes are there twice: `unit`, of variable length, which h5py hands out as `str`, and `.unit`, of
 a fixed length, which this program reads: HDF5 keeps the former in a heap without checksums, where a flipped bit makes HDF5 1.10 loop.
 
 | object | type | meaning |
 |---|---|---|
-| `/` | attributes `format` (`vitrum result 2`), `title` | |
+| `/` | attributes `format` (`vitrum result 3`), `title` | |
 | `/scene/verbatim`, `/scene/resolved` | text, attribute `sha256` | the scene file unchanged; the scene with `--set` applied and every default filled in |
 | `/provenance` | attributes `version`, `git`, `command`, `sundials`, `compiler`, `host`, `started`, `scene_sha256` | how the result was made; the digest is of the resolved scene |
 | `/bodies` | text, one per body | names |
 | `/particles/body` | uint32, N | index into `/bodies` |
 | `/particles/mass` | double, N | mass, kg or kg/m |
-| `/particles/index` | uint32, N | 0 .. N-1, the list of points for visualisation |
+| `/particles/size` | double, N | side of the particle's square at the start, m |
+| `/particles/index` | uint32, N | 0 .. N-1 |
 | `/steps/NNNNN` | attributes `time` (s), `step_index` | one group per output, from `00000` |
 | `/steps/NNNNN/particles/FIELD` | double, N or N x components | see below; absent with `--no-fields` |
+| `/steps/NNNNN/drawn/BODY/FIELD` | double | the same for ParaView, by number of the body: see below |
 | `/series/NAME` | double, one row per output | `time`, `step_index`, energies, counts, fronts, ...; NaN where the run gave no value |
 
-Every dataset below `/particles`, `/steps` and `/series` has the attributes `unit` and `description`. Row i is the same particle in every
+Every dataset of `/particles`, `/steps/NNNNN/particles` and `/series` has the attributes `unit` and `description`. Row i is the same particle in every
 dataset of a file: body after body, and within a body in the order in which the particles were made.
 
 ### Fields
@@ -92,7 +99,7 @@ written, except `elastic_strain`. A variable is NaN for particles whose material
 |---|---|---|---|
 | `position` | 2 | m | (r, z) or (x, y) |
 | `velocity` | 2 | m/s | (r, z) or (x, y) |
-| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive |
+| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](theory.md), 1.2). Cauchy's is this over the change of volume, from which it differs by 0.1 % where the paper's glass fails |
 | `damage` | 1 | 1 | D = 1 - K_bar/K, eq. 8 |
 )";
 
@@ -103,6 +110,20 @@ constexpr std::string_view after_variables =
     with h5py.File("out/result.h5") as result:
         for step in result["steps"].values():
             print(step.attrs["time"], step["particles/damage"][:].max())
+
+### ParaView
+
+`result.xdmf` is a time series of a block per body, with its name (from the second output on the readers append a number: `plate[1]`). All three XDMF
+readers of ParaView 5.11 and later open it. Vectors (`velocity`, `normal`) have three components, so that Glyph and Warp By Vector work; tensors
+(`stress`, `elastic_strain`) are symmetric ones of six, xx yy zz xy yz xz, where x = r, y = z and z is the hoop in axisymmetry. Besides the fields of the
+output there are `von_mises` and `pressure` (from `stress`), `mass`, `size` and `fragment`: the number of the connected piece that a particle belongs
+to, 0 for the one of most particles, -1 for separated particles, NaN where a material cannot separate.
+
+Two of the readers know no functions and no hyperslabs: so these arrays are stored again, by body, in `/steps/NNNNN/drawn`. Of 1,250 particles
+with all fields an output takes 490 kB, 270 of them for this.
+
+`studies/paraview_run.py` sets a picture up: `pvpython studies/paraview_run.py OUT`, or from ParaView's Python shell. It reflects an axisymmetric run at its
+axis, draws each particle as a square of its size, and colours by separation.
 
 ## `energy.csv`
 
@@ -117,7 +138,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 |---|---|
 | `status`, `message` | `complete`, `failed` or `interrupted`; why |
 | `warnings` | list of all that standard error was warned of, before the run and at its end |
-| `time`, `particles`, `wall_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop; threads used |
+| `time`, `particles`, `wall_seconds`, `total_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop alone; seconds of the whole process, outputs and all (of a resumed run: both with those before the checkpoint); threads used |
 | `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `step_min`, `step_max` (s), `limited_by` {`stability`, `accuracy` (or `max_step`), `output`, `remap`} (steps), `error_estimate` {`total`, `position`, `velocity`, `strain`} (sums of local errors over their scales; null: no estimate), `phases`, `remap_loss` (J; arkode-implicit) |
 | `constitutive` | `method`, `evaluations` (bodies that coast take none), `cvode_solves`, `cvode_steps`, `cvode_rhs`, `increments_solved`, `solves`, `solver_steps`, `solver_rhs`, `failures`, `events` |
 | `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |

@@ -1,14 +1,19 @@
 #include "output/result_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "output/atomic_file.hpp"
 #include "output/descriptor.hpp"
-#include "output/result_layout.hpp"
+#include "output/result_reader.hpp"
+#include "output/xdmf.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -22,135 +27,147 @@ void require_consistent(const OutputFrame& frame, std::size_t particles) {
   }
 }
 
-StoredStep stored(std::size_t index, const OutputFrame& frame) {
-  StoredStep step{step_name(index), frame.time, {}};
-  for (const Field& field : frame.fields) step.fields.push_back({field.name, field.components});
-  std::sort(step.fields.begin(), step.fields.end(),
-            [](const StoredField& a, const StoredField& b) { return a.name < b.name; });
-  return step;
+std::filesystem::path xdmf_path(const std::filesystem::path& directory) {
+  return directory / "result.xdmf";
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw_file_error(path, "read", errno);
+  return content;
+}
+
+std::string_view text_of(std::span<const char> bytes) {
+  return {bytes.data(), bytes.size()};
+}
+
+void make_steps_folder(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directory(steps_path(directory), error);
+  if (error) throw_file_error(steps_path(directory), "make the folder", error.value());
 }
 
 }  // namespace
 
-ResultFile::ResultFile(const std::filesystem::path& directory, Publishing publishing)
-    : path_(result_path(directory)), shadow_(next_of(path_)), publishing_(publishing) {
-  std::error_code missing;
-  std::filesystem::remove(shadow_, missing);  // an earlier run that was killed leaves one
-}
+ResultFile::ResultFile(std::filesystem::path directory, std::string door, ParticleConstants constants)
+    : directory_(std::move(directory)), door_(std::move(door)), constants_(std::move(constants)) {}
 
-ResultFile::~ResultFile() {
-  if (shadow_.empty()) return;  // moved from, or abandoned
-  std::error_code missing;
-  std::filesystem::remove(shadow_, missing);
-}
-
-ResultFile ResultFile::create(const std::filesystem::path& directory, const RunHeader& header,
-                              Publishing publishing) {
-  ResultFile result(directory, publishing);
-  File file = File::create(result.shadow_);
-  write_header(file.root(), header);
-  file.close();
-  replace_with(result.shadow_, result.path_);
-  result.particles_ = header.particles.body.size();
+ResultFile ResultFile::create(const std::filesystem::path& directory, const RunHeader& header) {
+  make_steps_folder(directory);
+  File particles = File::create(particles_path(directory)), door = File::create(result_path(directory));
+  write_particles(particles.root(), header.particles);
+  put_in_place(particles_path(directory), text_of(particles.close()));
+  write_header(door.root(), header);
+  ResultFile result(directory, std::string(text_of(door.close())), header.particles);
+  result.show();
   return result;
 }
 
-ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_t outputs,
-                              Publishing publishing) {
-  ResultFile result(directory, publishing);
-  File old = File::open_to_read(result.path_);
-  require_result(old.root());
-  result.steps_ = read_steps(old.root());
-  result.particles_ = count_particles(old.root());
-  if (result.steps_.size() < outputs)
+ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_t outputs) {
+  const ResultReader earlier(directory);
+  if (earlier.steps().size() < outputs)
     throw FileError(
         fmt::format("{}: holds {} outputs, fewer than the {} that were written before the checkpoint",
-                    result.path_.string(), result.steps_.size(), outputs));
-  if (result.steps_.size() == outputs) return result;
-  File shortened = File::create(result.shadow_);
-  copy_constants(old.root(), shortened.root());
-  copy_steps(old.root(), shortened.root(), 0, outputs);
-  shortened.close();
-  old.close();
-  replace_with(result.shadow_, result.path_);
-  result.steps_.resize(outputs);
-  return result;
-}
-
-/// False where a copy must take the shadow's place: one of the two files is not what it was after the last
-/// output, or another program still has the shadow open as the result.h5 that it once was.
-bool ResultFile::bring_shadow_level(const Descriptor& result) const {
-  const FileVersion version = result.version();
-  Descriptor shadow(shadow_, O_WRONLY);
-  if (!shadow.lock_for_writing() || version != published_ || shadow.version() != replaced_) return false;
-  for (const ByteRange& part : ahead_) shadow.write_part_of(result, part);
-  shadow.truncate(version.size);
-  shadow.close();
-  return true;
-}
-
-File ResultFile::open_shadow(const Descriptor& result) const {
-  std::error_code failure;
-  if (std::filesystem::exists(shadow_, failure)) {
-    try {
-      if (bring_shadow_level(result)) return File::open_to_write(shadow_);
-    } catch (const FileError&) {
-      // It is write-protected, or has been locked meanwhile; what a copy does not cure either, a copy tells.
-    }
-    remove_file(shadow_);  // (a program that reads it keeps it)
+                    earlier.path().string(), earlier.steps().size(), outputs));
+  std::string bytes = content_of(earlier.path());
+  File door = File::open_image(earlier.path(), bytes);
+  keep_steps(door.root(), outputs);
+  ResultFile result(directory, std::string(text_of(door.close())), earlier.constants());
+  for (std::size_t index = 0; index < outputs; ++index) {
+    earlier.output(index);  // throws where it is missing
+    result.times_.push_back(earlier.steps()[index].time);
+    if (std::filesystem::exists(step_xdmf_path(directory, index))) result.drawn_.push_back(index);
   }
-  Descriptor copy(shadow_, O_WRONLY | O_CREAT | O_EXCL);
-  copy.write_all_of(result);
-  copy.close();
-  File file = File::open_to_write(shadow_);
-  if (const std::size_t present = count_steps(file.root()); present != steps_.size())
-    throw FileError(fmt::format(
-        "{}: holds {} outputs, but this run has written {}: another program has changed or replaced it",
-        path_.string(), present, steps_.size()));
-  return file;
+  result.show();
+  remove_outputs(directory, outputs);
+  return result;
 }
 
 void ResultFile::append(const OutputFrame& frame) {
-  require_consistent(frame, particles_);
-  // Until the new file has taken its place, so that nobody changes what is about to be replaced.
-  Descriptor result(path_, O_RDONLY);
-  if (!result.lock_for_reading())
-    throw FileError(
-        fmt::format("{}: another program has it open for writing; no output can be added", path_.string()));
-  const FileVersion version = result.version();
+  require_consistent(frame, particles());
+  const std::size_t index = outputs();
+  const std::vector<DrawnBody> drawn = drawing(frame, constants_);
+  File step = File::create(step_path(directory_, index)),
+       door = File::open_image(result_path(directory_), door_);
+  write_step(step.root(), frame, drawn);
+  enter_step(door.root(), index, frame);
+  std::string before = std::exchange(door_, text_of(door.close()));
+  times_.push_back(frame.time);
+  if (!drawn.empty()) drawn_.push_back(index);
   try {
-    File shadow = open_shadow(result);
-    write_step(shadow.root(), steps_.size(), frame);
-    write_series(shadow.root(), steps_.size(), frame);
-    ahead_ = shadow.close();
-    published_ = Descriptor(shadow_, O_RDONLY).version();
-    replaced_ = version;
-    publish();
+    put_in_place(step_path(directory_, index), text_of(step.close()));
+    if (!drawn.empty()) put_in_place(step_xdmf_path(directory_, index), step_xdmf(index, frame.time, drawn));
+    if (door_is_due()) show();
   } catch (...) {
-    std::error_code missing;
-    std::filesystem::remove(shadow_, missing);  // half written; the next attempt begins with a copy
+    if (shown_ <= index) door_ = std::move(before), forget(index);
     throw;
   }
-  steps_.push_back(stored(steps_.size(), frame));
 }
 
-void ResultFile::publish() {
-  if (publishing_ == Publishing::exchange && exchange_with(shadow_, path_)) return;
-  publishing_ = Publishing::replace;
-  replace_with(shadow_, path_);
-}
-
-void ResultFile::close() {
+/// Undoes an output that result.h5 does not lead to yet.
+void ResultFile::forget(std::size_t index) {
+  times_.resize(index);
+  std::erase(drawn_, index);
   std::error_code missing;
-  std::filesystem::remove(shadow_, missing);
+  std::filesystem::remove(step_path(directory_, index), missing);
+  std::filesystem::remove(step_xdmf_path(directory_, index), missing);
 }
 
-std::string step_name(std::size_t index) {
-  return fmt::format("{:05d}", index);
+bool ResultFile::door_is_due() const {
+  constexpr std::size_t always = 512;
+  return (outputs() - shown_) * always >= outputs() ||
+         std::chrono::steady_clock::now() - shown_at_ > std::chrono::seconds(1);
 }
 
-std::filesystem::path result_path(const std::filesystem::path& directory) {
-  return directory / "result.h5";
+void ResultFile::show() {
+  put_in_place(result_path(directory_), door_);
+  shown_ = outputs();
+  shown_at_ = std::chrono::steady_clock::now();
+  if (drawn_.empty())
+    remove_file(xdmf_path(directory_));  // of outputs that are no more
+  else
+    put_in_place(xdmf_path(directory_), xdmf_text(drawn_));
+}
+
+void ResultFile::settle() {
+  if (shown_ < outputs()) show();
+  force_to_disk(directory_);
+}
+
+namespace {
+
+/// Number of the output that a file below steps/ belongs to: "00012.h5", "00012.xmf", ".00012.h5.next".
+std::optional<std::size_t> output_of(std::string name) {
+  if (name.starts_with('.') && name.ends_with(".next")) name = name.substr(1, name.size() - 6);
+  const std::size_t dot = name.find('.');
+  const std::string digits = name.substr(0, dot);
+  if (dot == std::string::npos || (name.substr(dot) != ".h5" && name.substr(dot) != ".xmf"))
+    return std::nullopt;
+  if (digits.size() < 5 || digits.size() > 18 || digits.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  return std::stoull(digits);
+}
+
+std::vector<std::pair<std::size_t, std::filesystem::path>> files_of_outputs(
+    const std::filesystem::path& directory) {
+  std::vector<std::pair<std::size_t, std::filesystem::path>> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(steps_path(directory), none))
+    if (const auto index = output_of(entry.path().filename().string()))
+      files.emplace_back(*index, entry.path());
+  return files;
+}
+
+}  // namespace
+
+void remove_outputs(const std::filesystem::path& directory, std::size_t first) {
+  for (const auto& [index, path] : files_of_outputs(directory))
+    if (index >= first) remove_file(path);
+}
+
+bool has_outputs(const std::filesystem::path& directory) {
+  return !files_of_outputs(directory).empty();
 }
 
 }  // namespace vitrum::output

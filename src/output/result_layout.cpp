@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace vitrum::output {
@@ -22,21 +21,49 @@ void write_series_value(const Group& series, std::size_t row, const SeriesValue&
   series.write_row(value.name, row, value.value);
 }
 
-void write_particle_constants(const Group& root, const ParticleConstants& constants) {
-  const Group particles = root.create_group("particles");
-  std::vector<std::uint32_t> index(constants.body.size());
-  std::iota(index.begin(), index.end(), 0U);
-  particles.write("body", constants.body);
-  describe(particles, "body", "1", "index of the particle's body in /bodies");
-  particles.write("mass", constants.mass);
-  describe(particles, "mass", constants.mass_unit, "mass of the particle");
-  particles.write("index", index);
-  describe(particles, "index", "1",
-           "number of the particle; visualisation uses it as the list of points to draw");
-  root.write_texts("bodies", constants.bodies);
+std::vector<std::uint32_t> counted(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  return numbers;
+}
+
+/// The arrays of every body that are constant, with the list of points to draw; or those that are not.
+void write_drawn(const Group& root, const std::vector<DrawnBody>& drawn, bool constant) {
+  if (drawn.empty()) return;
+  const Group bodies = root.create_group("drawn");
+  for (std::size_t number = 0; number < drawn.size(); ++number) {
+    const Group body = bodies.create_group(std::to_string(number));
+    if (constant) body.write("index", counted(drawn[number].particles));
+    for (const DrawnArray& array : drawn[number].arrays)
+      if (array.constant == constant) body.write(array.name, array.values, array.components);
+  }
+}
+
+std::string file_of_step(std::size_t index) {
+  return step_name(index) + ".h5";
 }
 
 }  // namespace
+
+std::string step_name(std::size_t index) {
+  return fmt::format("{:05d}", index);
+}
+
+std::filesystem::path result_path(const std::filesystem::path& directory) {
+  return directory / "result.h5";
+}
+std::filesystem::path steps_path(const std::filesystem::path& directory) {
+  return directory / "steps";
+}
+std::filesystem::path particles_path(const std::filesystem::path& directory) {
+  return steps_path(directory) / "particles.h5";
+}
+std::filesystem::path step_path(const std::filesystem::path& directory, std::size_t index) {
+  return steps_path(directory) / file_of_step(index);
+}
+std::filesystem::path step_xdmf_path(const std::filesystem::path& directory, std::size_t index) {
+  return steps_path(directory) / (step_name(index) + ".xmf");
+}
 
 void require_result(const Group& root) {
   if (!root.has_attribute(".", "format"))
@@ -56,84 +83,61 @@ void write_header(const Group& root, const RunHeader& header) {
   const Group provenance = root.create_group("provenance");
   for (const ProvenanceEntry& entry : provenance_entries)
     provenance.set_attribute(".", std::string(entry.name), header.provenance.*entry.member);
-  write_particle_constants(root, header.particles);
+  root.write_texts("bodies", header.particles.bodies);
+  root.link_to_file("particles", "steps/particles.h5", "/particles");
   root.create_group("steps");
   root.create_group("series");
 }
 
-void write_step(const Group& root, std::size_t index, const OutputFrame& frame) {
-  const Group step = root.open_group("steps").create_group(step_name(index));
-  step.set_attribute(".", "time", frame.time);
-  step.set_attribute(".", "step_index", frame.step_index);
+void write_particles(const Group& root, const ParticleConstants& constants) {
+  const Group particles = root.create_group("particles");
+  particles.write("body", constants.body);
+  describe(particles, "body", "1", "index of the particle's body in /bodies");
+  particles.write("mass", constants.mass);
+  describe(particles, "mass", constants.mass_unit, "mass of the particle");
+  particles.write("size", constants.size);
+  describe(particles, "size", "m", "side of the particle's square at the start");
+  const std::vector<std::uint32_t> numbers = counted(constants.body.size());
+  particles.write("index", numbers);
+  describe(particles, "index", "1", "number of the particle");
+  write_drawn(root, drawn_constants(constants), true);
+}
+
+void write_step(const Group& root, const OutputFrame& frame, const std::vector<DrawnBody>& drawn) {
+  root.set_attribute(".", "time", frame.time);
+  root.set_attribute(".", "step_index", frame.step_index);
   if (frame.fields.empty()) return;
-  const Group particles = step.create_group("particles");
+  const Group particles = root.create_group("particles");
   for (const Field& field : frame.fields) {
     particles.write(field.name, field.values, field.components);
     describe(particles, field.name, field.unit, field.description);
   }
+  write_drawn(root, drawn, false);
 }
 
-void write_series(const Group& root, std::size_t row, const OutputFrame& frame) {
+void enter_step(const Group& root, std::size_t index, const OutputFrame& frame) {
+  root.open_group("steps").link_to_file(step_name(index), "steps/" + file_of_step(index), "/");
   const Group series = root.open_group("series");
-  write_series_value(series, row, {"time", "s", "simulated time", frame.time});
-  write_series_value(series, row,
+  write_series_value(series, index, {"time", "s", "simulated time", frame.time});
+  write_series_value(series, index,
                      {"step_index", "1", "time steps taken so far", static_cast<double>(frame.step_index)});
-  for (const SeriesValue& value : frame.series) write_series_value(series, row, value);
+  for (const SeriesValue& value : frame.series) write_series_value(series, index, value);
+}
+
+void keep_steps(const Group& root, std::size_t outputs) {
+  const Group steps = root.open_group("steps"), series = root.open_group("series");
+  for (std::size_t index = outputs; steps.has(step_name(index)); ++index) steps.remove(step_name(index));
+  for (const std::string& name : series.names()) series.keep_rows(name, outputs);
 }
 
 std::size_t count_steps(const Group& root) {
-  return root.open_group("steps").names().size();
-}
-
-std::size_t count_particles(const Group& root) {
-  return root.extent("particles/mass").rows;
-}
-
-std::vector<StoredStep> read_steps(const Group& root) {
-  const std::size_t particle_count = count_particles(root);
   const Group group = root.open_group("steps");
-  std::vector<StoredStep> steps;
-  const std::size_t count = count_steps(root);
-  for (std::size_t index = 0; index < count; ++index) {
-    const std::string name = step_name(index);
-    if (!group.has(name))
-      throw FileError(fmt::format("{}: {} outputs, but '{}' is missing", group.label(), count, name));
-    const Group step = group.open_group(name);
-    StoredStep entry{name, step.number_attribute(".", "time"), {}};
-    if (step.has("particles")) {
-      const Group particles = step.open_group("particles");
-      for (const std::string& field : particles.names()) {
-        const Extent extent = particles.extent(field);
-        if (extent.rows != particle_count)
-          throw FileError(fmt::format("{}: '{}' has {} rows, expected one for each of {} particles",
-                                      particles.label(), field, extent.rows, particle_count));
-        entry.fields.push_back({field, extent.columns});
-      }
-    }
-    steps.push_back(std::move(entry));
-  }
-  return steps;
-}
-
-void copy_constants(const Group& from, const Group& to) {
-  for (const char* name : {"format", "title"}) to.set_attribute(".", name, from.text_attribute(".", name));
-  for (const char* name : {"scene", "provenance", "particles", "bodies"}) from.copy(name, to);
-  to.create_group("steps");
-  to.create_group("series");
-}
-
-void copy_steps(const Group& from, const Group& to, std::size_t first, std::size_t last) {
-  const Group steps_from = from.open_group("steps"), steps_to = to.open_group("steps");
-  for (std::size_t index = first; index < last; ++index) steps_from.copy(step_name(index), steps_to);
-
-  const Group series_from = from.open_group("series"), series_to = to.open_group("series");
-  for (const std::string& name : series_from.names()) {
-    const std::vector<double> rows = series_from.read_doubles(name);
-    for (std::size_t row = first; row < std::min(last, rows.size()); ++row)
-      write_series_value(series_to, row,
-                         {name, series_from.text_attribute(name, "unit"),
-                          series_from.text_attribute(name, "description"), rows[row]});
-  }
+  const std::vector<std::string> names = group.names();
+  for (std::size_t index = 0; index < names.size(); ++index)
+    if (!group.has(step_name(index)))
+      throw FileError(
+          fmt::format("{}: {} outputs, but '{}' is missing", group.label(), names.size(), step_name(index)));
+  return names.size();
 }
 
 }  // namespace vitrum::output

@@ -1,42 +1,50 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
+#include <string>
 #include <vector>
 
+#include "output/drawing.hpp"
 #include "output/hdf5.hpp"
 #include "output/output_frame.hpp"
-#include "output/result_file.hpp"
+
+// Where things stand in the files of a result: result.h5, steps/particles.h5 and steps/NNNNN.h5.
 
 namespace vitrum::output {
 
 /// Value of the root attribute `format` of every result file.
-inline constexpr const char* result_format = "vitrum result 2";
+inline constexpr const char* result_format = "vitrum result 3";
+
+/// Name of output `index`: at least five digits.
+std::string step_name(std::size_t index);
+
+/// Paths below a run's directory: the door, what is constant of particles, one output, and its XDMF.
+std::filesystem::path result_path(const std::filesystem::path& directory);
+std::filesystem::path steps_path(const std::filesystem::path& directory);
+std::filesystem::path particles_path(const std::filesystem::path& directory);
+std::filesystem::path step_path(const std::filesystem::path& directory, std::size_t index);
+std::filesystem::path step_xdmf_path(const std::filesystem::path& directory, std::size_t index);
 
 /// Throws FileError unless the file says that it is a result of a format that is known.
 void require_result(const Group& root);
 
-/// Everything that is written once, and the empty groups /steps and /series.
+/// Into the door: everything that is written once, and /steps and /series without an output.
 void write_header(const Group& root, const RunHeader& header);
 
-/// Group /steps/NNNNN with its attributes and fields.
-void write_step(const Group& root, std::size_t index, const OutputFrame& frame);
+/// Into steps/particles.h5: what is constant of particles.
+void write_particles(const Group& root, const ParticleConstants& constants);
 
-/// Row `row` of every series of the frame, making series that do not exist yet.
-void write_series(const Group& root, std::size_t row, const OutputFrame& frame);
+/// Into steps/NNNNN.h5: an output, and what is drawn of it.
+void write_step(const Group& root, const OutputFrame& frame, const std::vector<DrawnBody>& drawn);
 
-/// Number of outputs of a file.
+/// Into the door: the link to output `index`, and its row of every series of the frame, making series that do
+/// not exist yet.
+void enter_step(const Group& root, std::size_t index, const OutputFrame& frame);
+
+/// Takes all outputs but the first `outputs` out of the door.
+void keep_steps(const Group& root, std::size_t outputs);
+
+/// Number of outputs of a door. Throws FileError unless they are numbered without gaps.
 std::size_t count_steps(const Group& root);
-
-/// Number of particles of a file; 0: it stores no particle data.
-std::size_t count_particles(const Group& root);
-
-/// The outputs of a file, in order. Throws FileError when they are not numbered without gaps, or a field does
-/// not belong to the file's particles.
-std::vector<StoredStep> read_steps(const Group& root);
-
-/// Copies what write_header wrote.
-void copy_constants(const Group& from, const Group& to);
-
-/// Copies outputs [first, last) with their series rows; `to` holds the outputs before `first`.
-void copy_steps(const Group& from, const Group& to, std::size_t first, std::size_t last);
 
 }  // namespace vitrum::output

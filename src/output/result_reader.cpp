@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "output/result_layout.hpp"
 
@@ -20,10 +21,62 @@ std::filesystem::path locate(const std::filesystem::path& path) {
 
 }  // namespace
 
+OutputReader::OutputReader(const std::filesystem::path& path, const StoredStep& step, std::size_t particles)
+    : file_(File::open_to_read(path)) {
+  const Group& root = file_.root();
+  if (const double time = root.number_attribute(".", "time"); time != step.time)
+    throw FileError(fmt::format("{}: is of another run: its time is {} s, that of output {} is {} s",
+                                path.string(), time, step.name, step.time));
+  if (const std::int64_t index = root.integer_attribute(".", "step_index"); index != step.step_index)
+    throw FileError(fmt::format("{}: is of another run: it is that of step {}, output {} of step {}",
+                                path.string(), index, step.name, step.step_index));
+  if (!root.has("particles")) return;
+  const Group group = root.open_group("particles");
+  for (const std::string& field : group.names()) {
+    const Extent extent = group.extent(field);
+    if (extent.rows != particles)
+      throw FileError(fmt::format("{}: '{}' has {} rows, expected one for each of {} particles",
+                                  group.label(), field, extent.rows, particles));
+    fields_.push_back({field, extent.columns});
+  }
+}
+
+bool OutputReader::has(const StoredField& field) const {
+  return std::any_of(fields_.begin(), fields_.end(), [&](const StoredField& own) {
+    return own.name == field.name && own.components == field.components;
+  });
+}
+
+Field OutputReader::describe_field(const std::string& name) const {
+  const Group group = file_.root().open_group("particles");
+  return {name,
+          group.text_attribute(name, "unit"),
+          group.text_attribute(name, "description"),
+          group.extent(name).columns,
+          {}};
+}
+
+Field OutputReader::field(const std::string& name) const {
+  Field field = describe_field(name);
+  field.values = file_.root().open_group("particles").read_doubles(name);
+  return field;
+}
+
 ResultReader::ResultReader(const std::filesystem::path& path)
     : path_(locate(path)), file_(File::open_to_read(path_)) {
   require_result(file_.root());
-  steps_ = read_steps(file_.root());
+  if (const std::size_t count = count_steps(file_.root()); count > 0) {
+    const std::vector<double> times = series_values("time"), indices = series_values("step_index");
+    if (times.size() != count || indices.size() != count)
+      throw FileError(fmt::format("{}: tells of {} outputs, and of the times of {}", path_.string(), count,
+                                  times.size()));
+    constexpr double whole = 9007199254740992.0;  // doubles count to 2^53
+    for (std::size_t index = 0; index < count; ++index) {
+      if (!(std::abs(indices[index]) <= whole))
+        throw FileError(fmt::format("{}: output {} claims {} steps", path_.string(), index, indices[index]));
+      steps_.push_back({step_name(index), times[index], static_cast<std::int64_t>(indices[index])});
+    }
+  }
 }
 
 std::string ResultReader::title() const {
@@ -47,36 +100,30 @@ std::vector<std::string> ResultReader::bodies() const {
   return file_.root().read_texts("bodies");
 }
 
-std::vector<std::uint32_t> ResultReader::body_of_particle() const {
-  std::vector<std::uint32_t> body = file_.root().read_indices("particles/body");
-  const std::size_t count = bodies().size();
-  if (std::any_of(body.begin(), body.end(), [count](std::uint32_t index) { return index >= count; }))
+ParticleConstants ResultReader::constants() const {
+  const File file = File::open_to_read(particles_path(path_.parent_path()));
+  const Group root = file.root().open_group("particles");
+  ParticleConstants constants{bodies(), root.read_indices("body"), root.read_doubles("mass"),
+                              root.read_doubles("size"), root.text_attribute("mass", "unit")};
+  const std::size_t count = constants.bodies.size();
+  if (std::any_of(constants.body.begin(), constants.body.end(),
+                  [count](std::uint32_t index) { return index >= count; }))
     throw FileError(
-        fmt::format("{}: /particles/body names a body that /bodies does not list", path_.string()));
-  return body;
+        fmt::format("{}: names a body that /bodies of {} does not list", root.label(), path_.string()));
+  if (constants.mass.size() != constants.body.size() || constants.size.size() != constants.body.size())
+    throw FileError(fmt::format("{}: its arrays have different lengths", root.label()));
+  return constants;
 }
 
-std::vector<double> ResultReader::mass() const {
-  return file_.root().read_doubles("particles/mass");
+OutputReader ResultReader::output(std::size_t step) const {
+  const std::filesystem::path folder = path_.parent_path();
+  const std::size_t particles =
+      File::open_to_read(particles_path(folder)).root().extent("particles/mass").rows;
+  return OutputReader(step_path(folder, step), steps_.at(step), particles);
 }
 
-std::int64_t ResultReader::step_index(std::size_t step) const {
-  return file_.root().integer_attribute("steps/" + steps_.at(step).name, "step_index");
-}
-
-Field ResultReader::describe_field(std::size_t step, const std::string& name) const {
-  const Group group = file_.root().open_group("steps/" + steps_.at(step).name + "/particles");
-  return {name,
-          group.text_attribute(name, "unit"),
-          group.text_attribute(name, "description"),
-          group.extent(name).columns,
-          {}};
-}
-
-Field ResultReader::field(std::size_t step, const std::string& name) const {
-  Field field = describe_field(step, name);
-  field.values = file_.root().open_group("steps/" + steps_.at(step).name + "/particles").read_doubles(name);
-  return field;
+std::vector<double> ResultReader::series_values(const std::string& name) const {
+  return file_.root().open_group("series").read_doubles(name);
 }
 
 std::vector<StoredSeries> ResultReader::series() const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "output/hdf5.hpp"
-#include "output/result_file.hpp"
+#include "output/output_frame.hpp"
 
 namespace vitrum::output {
 
@@ -15,7 +15,40 @@ struct StoredSeries {
   std::vector<double> values;  ///< one per output; NaN where the run did not give one
 };
 
-/// Reads a result file. Everything throws FileError: for a file that is no result, is damaged, or lacks what
+/// A field as stored at one output.
+struct StoredField {
+  std::string name;
+  std::size_t components;
+};
+
+/// One output, as the door tells of it.
+struct StoredStep {
+  std::string name;             ///< of the group below /steps: "00000", "00001", ...
+  double time = 0.0;            ///< s
+  std::int64_t step_index = 0;  ///< time steps taken so far
+};
+
+/// Reads the file of one output. Everything throws FileError.
+class OutputReader {
+ public:
+  /// Throws also when the file tells another time than `step`, or has fields that are not of so many
+  /// particles.
+  OutputReader(const std::filesystem::path& path, const StoredStep& step, std::size_t particles);
+
+  /// By name.
+  const std::vector<StoredField>& fields() const { return fields_; }
+  bool has(const StoredField& field) const;
+  /// A field's unit, description and components, without its values.
+  Field describe_field(const std::string& name) const;
+  /// Values too: particles x components, row-major.
+  Field field(const std::string& name) const;
+
+ private:
+  File file_;
+  std::vector<StoredField> fields_;
+};
+
+/// Reads a result. Everything throws FileError: for a file that is no result, is damaged, or lacks what
 /// is asked for.
 class ResultReader {
  public:
@@ -29,17 +62,17 @@ class ResultReader {
   std::string scene_resolved() const;
   Provenance provenance() const;
   std::vector<std::string> bodies() const;
+  /// What is constant of particles.
+  ParticleConstants constants() const;
   /// Index into bodies() of every particle.
-  std::vector<std::uint32_t> body_of_particle() const;
-  std::vector<double> mass() const;
-  std::int64_t step_index(std::size_t step) const;
-  /// A field's unit, description and components, without its values.
-  Field describe_field(std::size_t step, const std::string& name) const;
-  /// Values of a field at output `step` < steps().size(): particles x components, row-major.
-  Field field(std::size_t step, const std::string& name) const;
+  std::vector<std::uint32_t> body_of_particle() const { return constants().body; }
+  /// Output `step` < steps().size().
+  OutputReader output(std::size_t step) const;
   std::vector<StoredSeries> series() const;
 
  private:
+  std::vector<double> series_values(const std::string& name) const;
+
   std::filesystem::path path_;
   File file_;
   std::vector<StoredStep> steps_;

@@ -158,6 +158,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
           {"time", number(summary.time)},
           {"particles", summary.particles},
           {"wall_seconds", number(summary.wall_seconds)},
+          {"total_seconds", number(summary.total_seconds)},
           {"threads", summary.threads},
           {"integrator", integrator_block(summary)},
           {"constitutive", constitutive_block(summary.constitutive_method, summary.constitutive)},

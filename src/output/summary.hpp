@@ -35,7 +35,8 @@ struct RunSummary {
   std::vector<std::string> warnings;  ///< told before the run and at its end
   double time = 0.0;                  ///< s, reached
   std::size_t particles = 0;
-  double wall_seconds = 0.0;  ///< of the time loop alone
+  double wall_seconds = 0.0;   ///< of the time loop alone
+  double total_seconds = 0.0;  ///< of the whole process, outputs and all
   int threads = 1;
   std::string integrator_method, constitutive_method;  ///< by their scene names
   IntegratorCounters integrator;

@@ -2,64 +2,78 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "output/atomic_file.hpp"
+#include "output/result_layout.hpp"
 
 namespace vitrum::output {
 namespace {
 
+constexpr const char* xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
+  }
+  return result;
+}
+
 std::string_view attribute_type(std::size_t components) {
   if (components == 1) return "Scalar";
-  return components == 2 ? "Vector" : "Matrix";
+  return components == 3 ? "Vector" : "Matrix";
 }
 
 std::string data_item(std::string_view number, int bytes, std::size_t rows, std::size_t columns,
-                      std::string_view location) {
+                      const std::string& location) {
   return fmt::format(
-      R"(<DataItem Format="HDF" NumberType="{}" Precision="{}" Dimensions="{} {}">result.h5:{}</DataItem>)",
-      number, bytes, rows, columns, location);
+      R"(<DataItem Format="HDF" NumberType="{}" Precision="{}" Dimensions="{}{}">steps/{}</DataItem>)",
+      number, bytes, rows, columns == 1 ? "" : fmt::format(" {}", columns), location);
 }
 
-std::string grid(const StoredStep& step, std::size_t particles) {
-  const std::string fields = fmt::format("/steps/{}/particles/", step.name);
+std::string block(std::size_t step, std::size_t number, const DrawnBody& body) {
+  const std::string group = fmt::format(".h5:/drawn/{}/", number), constants = "particles" + group,
+                    output = step_name(step) + group;
   std::string text = fmt::format(
-      "      <Grid Name=\"particles\" GridType=\"Uniform\">\n        <Time Value=\"{}\"/>\n", step.time);
-  text += fmt::format(
-      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
+      "  <Grid Name=\"{}\" GridType=\"Uniform\">\n"
+      "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
       "NodesPerElement=\"1\">{}</Topology>\n",
-      particles, data_item("UInt", 4, particles, 1, "/particles/index"));
-  text += fmt::format("        <Geometry GeometryType=\"XY\">{}</Geometry>\n",
-                      data_item("Float", 8, particles, 2, fields + "position"));
-  for (const StoredField& field : step.fields) {
-    if (field.name == "position") continue;
-    text +=
-        fmt::format("        <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
-                    field.name, attribute_type(field.components),
-                    data_item("Float", 8, particles, field.components, fields + field.name));
+      escaped(body.name), body.particles, data_item("UInt", 4, body.particles, 1, constants + "index"));
+  for (const DrawnArray& array : body.arrays) {
+    const std::string data = data_item("Float", 8, body.particles, array.components,
+                                       (array.constant ? constants : output) + array.name);
+    if (array.name == "position")
+      text += fmt::format("    <Geometry GeometryType=\"XY\">{}</Geometry>\n", data);
+    else
+      text += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n",
+                          array.name, attribute_type(array.components), data);
   }
-  text += fmt::format(
-      "        <Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Node\">{}</Attribute>\n",
-      data_item("UInt", 4, particles, 1, "/particles/body"));
-  return text + "      </Grid>\n";
+  return text + "  </Grid>\n";
 }
 
 }  // namespace
 
-std::string xdmf_text(const ResultFile& result) {
-  std::string text =
-      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
-      "    <Grid Name=\"outputs\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const StoredStep& step : result.steps()) {
-    const bool placed = std::any_of(step.fields.begin(), step.fields.end(),
-                                    [](const StoredField& field) { return field.name == "position"; });
-    if (placed) text += grid(step, result.particles());
-  }
-  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+std::string step_xdmf(std::size_t index, double time, const std::vector<DrawnBody>& bodies) {
+  std::string text = fmt::format(
+      "{}<Grid Name=\"bodies\" GridType=\"Collection\" CollectionType=\"Spatial\">\n  <Time Value=\"{}\"/>\n",
+      xml, time);
+  for (std::size_t number = 0; number < bodies.size(); ++number) text += block(index, number, bodies[number]);
+  return text + "</Grid>\n";
 }
 
-void write_xdmf(const ResultFile& result) {
-  write_text_atomically(std::filesystem::path(result.path()).replace_extension(".xdmf"), xdmf_text(result));
+std::string xdmf_text(const std::vector<std::size_t>& drawn) {
+  std::string text = std::string(xml) +
+                     "<Xdmf Version=\"2.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n  <Domain>\n"
+                     "    <Grid Name=\"outputs\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const std::size_t index : drawn)
+    text +=
+        fmt::format("      <xi:include href=\"steps/{}.xmf\" xpointer=\"element(/1)\"/>\n", step_name(index));
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
 }  // namespace vitrum::output

@@ -1,21 +1,22 @@
 #pragma once
-#include <filesystem>
 #include <string>
+#include <vector>
 
-#include "output/result_file.hpp"
+#include "output/drawing.hpp"
 
 namespace vitrum::output {
 
-/// The XDMF text that lets visualisation programs open `result` as a time series of points. Outputs without
-/// positions are left out. The data stay in result.h5, which must lie in the same directory.
+/// The XDMF of one output: a collection of a block per body, whose points are its particles. The data are
+/// those of steps/NNNNN.h5 below /drawn.
 ///
-/// Fields with two components are written as `Vector` with two columns: the three XDMF readers of
-/// ParaView 5.11 accept that (its default reader adds the third component, which glyphs need), while
-/// functions and hyperslabs stop two of the three. Other fields with several components are `Matrix`. The
-/// points are listed explicitly, because the Xdmf3 readers draw none else.
-std::string xdmf_text(const ResultFile& result);
+/// All three XDMF readers of ParaView (XDMF, Xdmf3ReaderS, Xdmf3ReaderT) read it. Two of them know neither
+/// functions nor hyperslabs, so that vectors, tensors and blocks are arrays of their own; draw no points that
+/// are not listed; and take the six components of `Tensor6` in another order than the third: so tensors are
+/// matrices of six columns, which VTK takes for symmetric tensors in its own order.
+std::string step_xdmf(std::size_t index, double time, const std::vector<DrawnBody>& bodies);
 
-/// Writes result.xdmf beside result.h5, atomically. Throws FileError.
-void write_xdmf(const ResultFile& result);
+/// result.xdmf: the outputs `drawn` as a time series. It includes their files, so that an output adds one
+/// line.
+std::string xdmf_text(const std::vector<std::size_t>& drawn);
 
 }  // namespace vitrum::output

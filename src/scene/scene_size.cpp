@@ -14,10 +14,11 @@ namespace {
 // with it.
 
 /// Columns of a particle that every material has, its place in the grid's lists, and what an output, a
-/// checkpoint or the analysis of fragments holds besides while it is made.
-constexpr double of_particle = 8.0 * 9.0 + 12.0 + 140.0;
+/// checkpoint or the analysis of fragments holds besides while it is made: an output its fields, what is
+/// drawn of them, and the file of both.
+constexpr double of_particle = 8.0 * 9.0 + 12.0 + 450.0;
 /// The same for each of the material's variables.
-constexpr double of_variable = 8.0 + 8.0;
+constexpr double of_variable = 8.0 + 4.0 * 8.0;
 /// Nodal fields, the tile and the bookkeeping of a block of nodes.
 constexpr double of_block =
     mpm::block_nodes * (mpm::field_count * 8.0 + 4.0) + static_cast<double>(sizeof(mpm::TileData)) + 400.0;

@@ -54,7 +54,7 @@ class RunResults:
             raise BadInput(f"{path}: no such file; expected the folder of a run")
         try:
             with h5py.File(path) as result:
-                if result.attrs.get("format") != "vitrum result 2":
+                if result.attrs.get("format") != "vitrum result 3":
                     raise BadInput(f"{path}: not a vitrum result of this version")
                 self.title = str(result.attrs["title"])
                 self.provenance = {name: str(value) for name, value in result["provenance"].attrs.items() if not name.startswith(".")}

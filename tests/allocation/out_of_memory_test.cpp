@@ -14,6 +14,7 @@
 #include "app/command_line.hpp"
 #include "failing_new.hpp"
 #include "mpm/wave.hpp"
+#include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
 #include "tests/catch.hpp"
 #include "unit/output/temporary_directory.hpp"

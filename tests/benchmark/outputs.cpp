@@ -22,7 +22,7 @@ struct Directory {
   std::filesystem::path path;
 };
 
-/// One output of all fields. Every output is written twice and forced to disk.
+/// One output of all fields.
 void result_output(benchmark::State& state) {
   const Scene scene = bar(state.range(0));
   RunningScene run(scene);

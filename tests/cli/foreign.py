@@ -1,4 +1,5 @@
-"""HDF5 files that vitrum did not write, most of them a result with one thing about it changed: {name: writer(path, result)}."""
+"""HDF5 files that vitrum did not write, most of them a part of a result with one thing about it changed:
+{name: (part, writer(path, original))}."""
 import shutil
 
 import h5py
@@ -44,6 +45,8 @@ def _old_format(path, result):
 
         source.visititems(copy)
         file.attrs.update(source.attrs)
+        for name in ("particles", *(f"steps/{step}" for step in source["steps"])):
+            file[name] = source.get(name, getlink=True)
 
 
 def _variable_texts(path, result):
@@ -76,47 +79,48 @@ def _cycle(file, name):
 
 def _many_steps(file):
     for index in range(len(file["steps"]), 3000):
-        file["steps"][f"{index:05d}"] = file["steps/00000"]
+        file["steps"][f"{index:05d}"] = h5py.ExternalLink("steps/00000.h5", "/")
 
 
-mass, position, kinetic = "particles/mass", "steps/00000/particles/position", "series/kinetic"
+door, output, constants = "result.h5", "steps/00000.h5", "steps/particles.h5"
+mass, position, kinetic = "particles/mass", "particles/position", "series/kinetic"
 huge = 1 << 50
 writers = {
-    "empty": _empty,
-    "old_format": _old_format,
-    "variable_texts": _variable_texts,
-    "format_of_another_version": _set_attribute("/", ".format", np.bytes_("vitrum result 1")),
-    "format_is_a_number": _set_attribute("/", ".format", 2),
-    "time_is_text": _set_attribute("steps/00000", "time", np.bytes_("now")),
-    "time_is_a_list": _set_attribute("steps/00000", "time", [0.0, 1.0]),
-    "time_is_nothing": _set_attribute("steps/00000", "time", h5py.Empty("f8")),
-    "step_index_is_real": _set_attribute("steps/00000", "step_index", 0.5),
-    "bodies_missing": _changed(lambda file: file.__delitem__("bodies")),
-    "steps_missing": _changed(lambda file: file.__delitem__("steps")),
-    "series_missing": _changed(lambda file: file.__delitem__("series")),
-    "step_missing": _changed(lambda file: file.move("steps/00000", "steps/00099")),
-    "steps_is_data": _replaced("steps", _dataset(data=[1.0])),
-    "bodies_are_numbers": _replaced("bodies", _dataset(data=[1.0, 2.0])),
-    "no_body": _replaced("bodies", _dataset(data=np.array([b"plate"]))),
-    "body_is_signed": _replaced("particles/body", _dataset(data=np.zeros(200, "i4"))),
-    "position_is_single": _replaced(position, _dataset(data=np.zeros((200, 2), "f4"))),
-    "position_is_compound": _replaced(position, _dataset(data=np.zeros(200, [("r", "f8"), ("z", "f8")]))),
-    "position_has_three_dimensions": _replaced(position, _dataset(data=np.zeros((10, 10, 4)))),
-    "position_has_thirty_dimensions": _replaced(position, _dataset(data=np.zeros((1,) * 30))),
-    "position_is_nothing": _replaced(position, _dataset(data=h5py.Empty("f8"))),
-    "position_is_huge": _replaced(position, _dataset(shape=(huge, 2), dtype="f8", chunks=(1024, 2))),
-    "position_is_huge_in_both": _replaced(position, _dataset(shape=(1 << 40, 1 << 40), dtype="f8", chunks=(32, 32))),
-    "position_is_huge_and_contiguous": _replaced(position, _dataset(shape=(1 << 28, 2), dtype="f8")),
-    "position_is_compressed_and_huge": _replaced(position, _dataset(shape=(1 << 40,), dtype="f8", chunks=(1 << 20,), compression=9)),
-    "kinetic_is_huge": _replaced(kinetic, _dataset(shape=(huge,), dtype="f8", chunks=(128,), maxshape=(None,))),
-    "bodies_are_huge": _replaced("bodies", _dataset(shape=(2,), dtype="S2000000000", chunks=(1,))),
-    "mass_is_elsewhere": _replaced(mass, _dataset(shape=(200,), dtype="f8", external=[("/dev/zero", 0, 1600)])),
-    "position_is_elsewhere": _replaced(position, _dataset(shape=(200, 2), dtype="f8", external=[("/dev/zero", 0, 3200)])),
-    "position_is_virtual": _replaced(position, _virtual),
-    "steps_loop": _replaced("steps", _loop),
-    "steps_cycle": _replaced("steps", _cycle),
-    "steps_in_another_file": _replaced("steps", lambda file, name: file.__setitem__(name, h5py.ExternalLink("/dev/zero", "/x"))),
-    "position_in_another_file": _replaced(position, lambda file, name: file.__setitem__(name, h5py.ExternalLink("good.h5", position))),
-    "position_dangles": _replaced(position, lambda file, name: file.__setitem__(name, h5py.SoftLink("/nowhere"))),
-    "many_steps": _changed(_many_steps),
+    "empty": (door, _empty),
+    "old_format": (door, _old_format),
+    "variable_texts": (door, _variable_texts),
+    "format_of_another_version": (door, _set_attribute("/", ".format", np.bytes_("vitrum result 2"))),
+    "format_is_a_number": (door, _set_attribute("/", ".format", 2)),
+    "time_is_text": (output, _set_attribute("/", "time", np.bytes_("now"))),
+    "time_is_a_list": (output, _set_attribute("/", "time", [0.0, 1.0])),
+    "time_is_nothing": (output, _set_attribute("/", "time", h5py.Empty("f8"))),
+    "step_index_is_real": (output, _set_attribute("/", "step_index", 0.5)),
+    "bodies_missing": (door, _changed(lambda file: file.__delitem__("bodies"))),
+    "steps_missing": (door, _changed(lambda file: file.__delitem__("steps"))),
+    "series_missing": (door, _changed(lambda file: file.__delitem__("series"))),
+    "step_missing": (door, _changed(lambda file: file.move("steps/00000", "steps/00099"))),
+    "steps_is_data": (door, _replaced("steps", _dataset(data=[1.0]))),
+    "bodies_are_numbers": (door, _replaced("bodies", _dataset(data=[1.0, 2.0]))),
+    "no_body": (door, _replaced("bodies", _dataset(data=np.array([b"plate"])))),
+    "body_is_signed": (constants, _replaced("particles/body", _dataset(data=np.zeros(200, "i4")))),
+    "position_is_single": (output, _replaced(position, _dataset(data=np.zeros((200, 2), "f4")))),
+    "position_is_compound": (output, _replaced(position, _dataset(data=np.zeros(200, [("r", "f8"), ("z", "f8")])))),
+    "position_has_three_dimensions": (output, _replaced(position, _dataset(data=np.zeros((10, 10, 4))))),
+    "position_has_thirty_dimensions": (output, _replaced(position, _dataset(data=np.zeros((1,) * 30)))),
+    "position_is_nothing": (output, _replaced(position, _dataset(data=h5py.Empty("f8")))),
+    "position_is_huge": (output, _replaced(position, _dataset(shape=(huge, 2), dtype="f8", chunks=(1024, 2)))),
+    "position_is_huge_in_both": (output, _replaced(position, _dataset(shape=(1 << 40, 1 << 40), dtype="f8", chunks=(32, 32)))),
+    "position_is_huge_and_contiguous": (output, _replaced(position, _dataset(shape=(1 << 28, 2), dtype="f8"))),
+    "position_is_compressed_and_huge": (output, _replaced(position, _dataset(shape=(1 << 40,), dtype="f8", chunks=(1 << 20,), compression=9))),
+    "kinetic_is_huge": (door, _replaced(kinetic, _dataset(shape=(huge,), dtype="f8", chunks=(128,), maxshape=(None,)))),
+    "bodies_are_huge": (door, _replaced("bodies", _dataset(shape=(2,), dtype="S2000000000", chunks=(1,)))),
+    "mass_is_elsewhere": (constants, _replaced(mass, _dataset(shape=(200,), dtype="f8", external=[("/dev/zero", 0, 1600)]))),
+    "position_is_elsewhere": (output, _replaced(position, _dataset(shape=(200, 2), dtype="f8", external=[("/dev/zero", 0, 3200)]))),
+    "position_is_virtual": (output, _replaced(position, _virtual)),
+    "steps_loop": (door, _replaced("steps", _loop)),
+    "steps_cycle": (door, _replaced("steps", _cycle)),
+    "steps_in_another_file": (door, _replaced("steps", lambda file, name: file.__setitem__(name, h5py.ExternalLink("/dev/zero", "/x")))),
+    "position_in_another_file": (output, _replaced(position, lambda file, name: file.__setitem__(name, h5py.ExternalLink("00001.h5", position)))),
+    "position_dangles": (output, _replaced(position, lambda file, name: file.__setitem__(name, h5py.SoftLink("/nowhere")))),
+    "many_steps": (door, _changed(_many_steps)),
 }

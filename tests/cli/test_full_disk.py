@@ -11,7 +11,7 @@ import time
 import unittest
 
 import mounts
-from support import CommandLineTest, impact, overrides, program, read_summary
+from support import CommandLineTest, file_contents, file_names, impact, overrides, program, read_summary, size_of
 
 settings = [*overrides(time__end=4e-6, output__every=5e-7, output__checkpoint_every=1e-6), "--threads", "1"]
 no_space = "No space left on device"
@@ -31,7 +31,7 @@ class FullDisk(CommandLineTest):
         super().setUp()
         self.whole = self.run_scene("whole", *settings)
         self.disk = self.folder / "disk"
-        self.size = sum(path.stat().st_size for path in self.whole.iterdir())
+        self.size = size_of(self.whole)
 
     def run_until_full(self, out, reason, **options):
         """The last message of a run that ends for want of space, and its completed outputs; None twice when there was enough."""
@@ -53,8 +53,8 @@ class FullDisk(CommandLineTest):
     @mounts.needs_mounts
     def test_tmpfs(self):
         outputs, messages = set(), []
-        # From nothing to enough: twice the result, for its shadow, and as much again.
-        sizes = range(4096, 3 * self.size, 3 * self.size // 40 // 4096 * 4096)
+        # From nothing to enough: every file takes whole pages, and there are two of some while they are renewed.
+        sizes = range(4096, 2 * self.size, 2 * self.size // 40 // 4096 * 4096)
         for size in sizes:
             with self.subTest(size=size), mounts.mounted(self.disk, "-t", "tmpfs", "-o", f"size={size}", "none") as change:
                 message, completed = self.run_until_full(self.disk / "out", no_space)
@@ -70,10 +70,11 @@ class FullDisk(CommandLineTest):
 
     @mounts.needs_mounts
     def test_tmpfs_without_room_for_another_file(self):
-        for files in range(2, 10):  # the disk itself is one
+        enough = len(file_names(self.whole)) + 3  # the disk itself, steps, and the lock
+        for files in [*range(2, 10), enough // 2, enough - 2, enough - 1, enough]:
             with self.subTest(files=files), mounts.mounted(self.disk, "-t", "tmpfs", "-o", f"nr_inodes={files}", "none") as change:
                 message, _ = self.run_until_full(self.disk, no_space)
-                self.assertEqual(message is None, files > 7, message)
+                self.assertEqual(message is None, files >= enough, message)
                 if message is not None:
                     change("nr_inodes=100")
                     self.assert_goes_on(self.disk)
@@ -88,7 +89,7 @@ class FullDisk(CommandLineTest):
             file.truncate(64 << 20)
         subprocess.run(["mkfs.ext4", "-q", "-m", "0", image], check=True, capture_output=True, env={"PATH": tools})
         with mounts.mounted(self.disk, "-o", "loop", image):
-            for part in (0.02, 0.1, 0.3, 0.6, 0.9, 1.2, 1.5):
+            for part in (0.02, 0.1, 0.3, 0.5, 0.7, 0.85, 0.95):
                 out, filler = self.disk / "out", self.disk / "filler"
                 with self.subTest(part=part):
                     subprocess.run(["fallocate", "-l", str(shutil.disk_usage(self.disk).free - int(part * self.size)), filler], check=True)
@@ -100,8 +101,9 @@ class FullDisk(CommandLineTest):
 
     def test_limit_on_the_size_of_files(self):
         """What `ulimit -f` sets: needs no file system of its own."""
-        for part in (0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6):
-            out, limit = self.folder / f"out {part}", int(part * self.size)
+        largest = max(map(len, file_contents(self.whole).values()))
+        for part in (0.0, 0.01, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95):
+            out, limit = self.folder / f"out {part}", int(part * largest)
             with self.subTest(limit=limit):
                 if limit == 0 and not starts_without_files():
                     continue

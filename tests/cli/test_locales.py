@@ -40,7 +40,7 @@ class Locales(CommandLineTest):
         """All that the program writes under a locale, as texts."""
         out = self.folder / name
         run = self.vitrum("run", impact, "--out", out, env=environment)
-        texts = {file: (out / file).read_text() for file in ("energy.csv", "result.xdmf")}
+        texts = {file: (out / file).read_text() for file in ("energy.csv", "result.xdmf", "steps/00003.xmf")}
         for command in (["check", impact], ["check", impact, "--json"], ["point", glass_point], ["compare", "OUT", "OUT"], ["reference"]):
             answer = self.vitrum(*(out if argument == "OUT" else argument for argument in command), env=environment)
             texts[str(command)] = without_memory(answer.stdout.replace(str(out), "OUT") + answer.stderr)

@@ -49,7 +49,7 @@ class LostFolders(CommandLineTest):
         """By a script that removes all files of a folder, hidden ones, too, before it runs into it again."""
         self.process.send_signal(signal.SIGSTOP)
         for path in self.out.iterdir():
-            path.unlink()
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
         other = self.start("run", impact, "--out", self.out, *settings)
         self.wait_for_outputs(other, 2)
         self.process.send_signal(signal.SIGCONT)
@@ -69,13 +69,19 @@ class LostFolders(CommandLineTest):
         self.assertFalse((self.out / ".vitrum.lock").exists())
 
     def test_result_removed(self):
-        for path in [self.out / "result.h5", self.out / ".result.h5.next"]:
-            path.unlink(missing_ok=True)
+        """It is written anew at the next output, and leads to all of them."""
+        (self.out / "result.h5").unlink()
+        self.process.stderr.read()
+        self.assertEqual(self.process.wait(), 0)
+        self.assert_same_results(self.out, self.whole)
+
+    def test_outputs_removed(self):
+        shutil.rmtree(self.out / "steps")
         message = self.process.stderr.read().splitlines()[-1]
         self.assertEqual(self.process.wait(), 4, message)
-        self.assertRegex(message, r"error: t = \S+ s: \S*/result\.h5: cannot .*No such file or directory; checkpoint written")
+        self.assertRegex(message, r"error: t = \S+ s: \S*/steps/\S+: cannot open: No such file or directory; checkpoint written")
         answer = self.vitrum("run", self.scene, "--out", self.out, "--quiet", *settings, "--resume", status=4)
-        self.assertRegex(answer.stderr, "result.h5")
+        self.assertRegex(answer.stderr, "error: .*/steps/")
 
     def test_scene_removed(self):
         """It was read once, and is part of the result."""

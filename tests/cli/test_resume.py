@@ -7,7 +7,7 @@ import signal
 import subprocess
 import unittest
 
-from support import CommandLineTest, impact, overrides, plane_strain, program, read_summary
+from support import CommandLineTest, file_contents, impact, overrides, plane_strain, program, read_summary
 
 # 5000 steps, so that there is time to interrupt.
 long = overrides(integrator__step=4e-9, output__every=2e-6)
@@ -16,7 +16,7 @@ checkpoints = overrides(output__checkpoint_every=4e-6)
 
 
 def digests(folder):
-    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir()}
+    return {name: hashlib.sha256(content).hexdigest() for name, content in file_contents(folder).items()}
 
 
 class Signals(CommandLineTest):
@@ -152,6 +152,18 @@ class Resume(CommandLineTest):
         answer = self.vitrum("run", scene, "--out", out, "--resume", "--quiet", *arguments, status=status)
         self.assertRegex(answer.stderr, expected)
         self.assertEqual(digests(out), before)
+
+    def test_outputs_beyond_the_checkpoint_are_removed(self):
+        whole, out = (self.run_scene(name, *checkpoints, *overrides(time__end=14e-6)) for name in ("whole", "out"))
+        for number in range(8, 12):  # as of a run that was killed later
+            (out / "steps" / f"{number:05d}.h5").write_bytes((out / "steps" / "00003.h5").read_bytes())
+            (out / "steps" / f"{number:05d}.xmf").write_text("<Grid/>")
+        (out / "steps" / ".00012.h5.next").write_bytes(b"in the making")
+        (out / "steps" / "notes.txt").write_text("mine")
+        self.run_scene("out", *checkpoints, *overrides(time__end=14e-6), "--resume")
+        self.assertEqual((out / "steps" / "notes.txt").read_text(), "mine")
+        (out / "steps" / "notes.txt").unlink()
+        self.assert_same_results(out, whole)
 
     def test_another_scene(self):
         out = self.run_scene("out", *checkpoints)

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 import h5py
-from support import CommandLineTest, impact, output_count, overrides, preload, preloaded, program, read_summary
+from support import CommandLineTest, file_contents, file_names, impact, output_count, overrides, preload, preloaded, program, read_summary
 
 long = overrides(integrator__step=4e-9, output__every=2e-6)
 checkpoints = overrides(output__checkpoint_every=4e-6)
@@ -14,7 +14,7 @@ checkpoints = overrides(output__checkpoint_every=4e-6)
 
 def contents(folder):
     """All but the lock, which a killed run leaves and the next one takes away."""
-    return {path.name: path.read_bytes() for path in folder.iterdir() if path.name != ".vitrum.lock"}
+    return {name: content for name, content in file_contents(folder).items() if name != ".vitrum.lock"}
 
 
 class EarlierRun(CommandLineTest):
@@ -61,6 +61,9 @@ class EarlierRun(CommandLineTest):
         with h5py.File(out / "result.h5", "w") as foreign:
             foreign["mine"] = 1.0
         self.assert_refused(out, "result.h5, which cannot be read as a result")
+        whole.rename(self.folder / "kept")
+        (self.folder / "kept" / "result.h5").unlink()
+        self.assert_refused(self.folder / "kept", "outputs in steps/")
 
     def test_nothing_worth_keeping(self):
         """Killed, or ended by a full disk, before the first output; an empty folder; other files."""
@@ -80,8 +83,7 @@ class EarlierRun(CommandLineTest):
         self.assert_same_results(out, whole)
         self.assertEqual((out / "notes.txt").read_text(), "mine")
         self.assertTrue((out / "pictures").is_dir())
-        self.assertEqual(sorted(path.name for path in out.iterdir()),
-                         sorted([*(path.name for path in whole.iterdir()), "notes.txt", "pictures"]))
+        self.assertEqual(file_names(out), sorted([*file_names(whole), "notes.txt"]))
 
     def test_force_replaces(self):
         """All of it, and nothing else; also what failed, was killed, or is no run's."""
@@ -90,11 +92,12 @@ class EarlierRun(CommandLineTest):
         (out / "failed_point.toml").write_text("of an earlier failure")
         (out / ".result.h5.next").write_text("of a killed run")
         (out / ".checkpoint.h5.next").write_text("of a killed run")
+        (out / "steps" / ".00011.h5.next").write_text("of a killed run")
         (out / ".vitrum.lock").write_text("of a killed run")
         (out / "notes.txt").write_text("mine")
         self.run_scene("out", "--no-fields", "--force")
         self.assertEqual((out / "energy.csv").read_text(), (fresh / "energy.csv").read_text())
-        self.assertEqual(sorted(path.name for path in out.iterdir()), sorted([*(path.name for path in fresh.iterdir()), "notes.txt"]))
+        self.assertEqual(file_names(out), sorted([*file_names(fresh), "notes.txt"]))
         (out / "result.h5").write_bytes(b"mine")
         self.run_scene("out", "--force")
         self.run_scene("new", "--force")  # and where there is nothing to replace

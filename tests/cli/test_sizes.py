@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from support import CommandLineTest, glass_point, impact, overrides, plane_strain, program, told
+from support import CommandLineTest, glass_point, impact, overrides, plane_strain, program, size_of, told
 
 megabyte = 1 << 20
 
@@ -114,7 +114,8 @@ class Estimates(CommandLineTest):
                                  (impact, overrides(output__every=1e-7, output__checkpoint_every=1e-5))):
             estimate = json.loads(self.vitrum("check", scene, "--json", *arguments).stdout)["disk_bytes"]
             out = self.run_scene("out", "--quiet", "--force", *arguments, scene=scene)
-            taken = 2 * sum((out / name).stat().st_size for name in ("result.h5", "checkpoint.h5", "result.xdmf") if (out / name).exists())
+            checkpoint = out / "checkpoint.h5"  # there are two while it is renewed
+            taken = size_of(out) - (out / "energy.csv").stat().st_size + (checkpoint.stat().st_size if checkpoint.exists() else 0)
             with self.subTest(scene=scene.name, arguments=arguments, estimate=estimate, taken=taken):
                 self.assertTrue(0.6 * taken < estimate < 3.0 * taken)
 
@@ -138,7 +139,7 @@ class Estimates(CommandLineTest):
             estimate = json.loads(self.vitrum("check", impact, "--json", *arguments).stdout)["memory_bytes"]
             taken = self.peak(*arguments) - base
             with self.subTest(changes=changes, estimate=estimate / megabyte, taken=taken / megabyte):
-                self.assertTrue(0.85 * taken < estimate < 2.5 * taken)
+                self.assertTrue(0.85 * taken < estimate < 2.5 * taken + 12 * megabyte)
 
     def peak(self, *arguments):
         """Peak resident memory of a run, bytes."""
@@ -164,7 +165,7 @@ class Limits(CommandLineTest):
         self.assertRegex(answer.stderr, r"error: 1024 threads cannot be started: .*; ask for fewer \(--threads\)")
 
     def test_memory_that_is_taken_away(self):
-        """The limit falls to what the process has at some moment (after its first output: it is the loader that dies of want
+        """The limit falls to what the process has at some moment (after its first outputs: it is the loader that dies of want
         before); what it asks for after that, it does not get."""
         chance = random.Random(3)
         methods = ({}, {"integrator__method": '"arkode-explicit"'}, {"integrator__method": '"arkode-implicit"'}, {"constitutive__method": '"cvode"'})
@@ -173,7 +174,7 @@ class Limits(CommandLineTest):
             arguments = overrides(**{"space__cell": 4e-4, "time__end": 4e-6, "integrator__step": 5e-9, "output__every": 1e-7,
                                      "output__checkpoint_every": 1e-6, **methods[trial % len(methods)]})
             process = self.start("run", impact, "--out", f"out{trial}", "--threads", 2, *arguments)
-            while not (self.folder / f"out{trial}" / "result.xdmf").exists() and process.poll() is None:
+            while not (self.folder / f"out{trial}" / "steps" / "00002.h5").exists() and process.poll() is None:
                 time.sleep(0.01)
             time.sleep(0.2 * chance.random())
             try:

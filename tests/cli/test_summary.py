@@ -17,7 +17,7 @@ first = {"time": number, "r": number, "z": number, "body": text}
 body = {"particles": integer, "mass": number, "momentum": listing, "centre": listing, "kinetic": number, "localised": integer,
         "separated": integer}
 interface = {
-    "status": text, "message": or_null(str), "warnings": listing, "time": number, "particles": integer, "wall_seconds": number, "threads": integer,
+    "status": text, "message": or_null(str), "warnings": listing, "time": number, "particles": integer, "wall_seconds": number, "total_seconds": number, "threads": integer,
     "integrator": {"method": text, "steps": integer, "rejected": integer, "rhs_evaluations": integer,
                    "newton_iterations": integer, "factorisations": integer, "step_min": number, "step_max": number,
                    "limited_by": {"stability": integer, "accuracy": integer, "output": integer}},

@@ -93,7 +93,7 @@ class WritingCalls(CommandLineTest):
     def test_each_is_the_last_of_a_resumed_run(self):
         # What is resumed was killed when it had one more output than its checkpoint knows.
         names = self.names_of_calls()
-        last_output = len(names) - names[::-1].index("renameat2")
+        last_output = len(names) - names[::-1].index("renameat2")  # result.xdmf, behind the output and result.h5
         killed, _ = self.run_with(None, FAULT="KILL", FAULT_CALL=last_output)
         self.assertTrue((killed / "checkpoint.h5").exists())
         self.kill_at_calls(killed.rename(self.folder / "begun"))

@@ -150,14 +150,14 @@ PWRITE(pwrite64)
 FTRUNCATE(ftruncate)
 FTRUNCATE(ftruncate64)
 
-extern "C" ssize_t sendfile(int to, int from, off_t* offset, size_t size) noexcept {
-  static const auto real = following<ssize_t (*)(int, int, off_t*, size_t)>("sendfile");
-  return fails("sendfile", true) ? -1 : real(to, from, offset, size);
-}
-
 extern "C" int fsync(int file) {
   REAL(fsync);
   return fails("fsync", true) ? -1 : real(file);
+}
+
+extern "C" int syncfs(int file) noexcept {
+  REAL(syncfs);
+  return fails("syncfs", true) ? -1 : real(file);
 }
 
 extern "C" int rename(const char* from, const char* to) noexcept {

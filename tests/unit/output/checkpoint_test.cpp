@@ -134,8 +134,9 @@ TEST_CASE("A checkpoint whose columns disagree is refused", "[output]") {
   write_checkpoint(path, checkpoint);
   CHECK_THROWS_WITH(read_checkpoint(path), contains_text("'mass' has 2 entries, expected 3"));
   const auto empty = directory.path() / "empty.h5";
-  File::create(empty, checkpoint_header_size).close();
-  std::string bytes = content(empty);
+  File file = File::create(empty, checkpoint_header_size);
+  const std::span<char> closed = file.close();
+  std::string bytes(closed.begin(), closed.end());
   bytes.replace(0, 92, checkpoint_header(sha256(bytes.substr(512))));
   put(empty, bytes);
   CHECK_THROWS_AS(read_checkpoint(empty), FileError);

@@ -9,6 +9,8 @@
 
 #include "contains_text.hpp"
 #include "materials/description.hpp"
+#include "output/atomic_file.hpp"
+#include "output/hdf5.hpp"
 #include "output/provenance.hpp"
 #include "output/reference_page.hpp"
 #include "output/result_file.hpp"
@@ -56,7 +58,9 @@ TEST_CASE("info refuses what is no result", "[output]") {
   std::ofstream(directory.path() / "text.h5") << "text";
   CHECK_THROWS_WITH(describe_result(directory.path() / "text.h5", false),
                     contains_text("cannot open the file as HDF5"));
-  File::create(directory.path() / "foreign.h5").close();
+  File foreign = File::create(directory.path() / "foreign.h5");
+  const std::span<char> bytes = foreign.close();
+  put_in_place(directory.path() / "foreign.h5", {bytes.data(), bytes.size()});
   CHECK_THROWS_WITH(describe_result(directory.path() / "foreign.h5", false),
                     contains_text("is not a vitrum result"));
 }

@@ -1,10 +1,10 @@
 #include "output/result_file.hpp"
 
-#include <sys/fsuid.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -27,9 +27,10 @@ void check_complete(const std::filesystem::path& directory, std::size_t outputs)
   for (std::size_t s = 0; s < outputs; ++s) {
     const OutputFrame expected = sample_frame(s);
     CHECK(reader.steps()[s].time == expected.time);
-    CHECK(reader.step_index(s) == expected.step_index);
+    CHECK(reader.steps()[s].step_index == expected.step_index);
+    const OutputReader output = reader.output(s);
     for (const Field& field : expected.fields) {
-      const Field found = reader.field(s, field.name);
+      const Field found = output.field(field.name);
       CHECK(found.values == field.values);
       CHECK(found.components == field.components);
       CHECK(found.unit == field.unit);
@@ -43,26 +44,6 @@ void check_complete(const std::filesystem::path& directory, std::size_t outputs)
   }
 }
 
-/// No protection stops root: as long as it lives, files are opened and made as "nobody" does, whose
-/// `directory` then is.
-class AsNobody {
- public:
-  explicit AsNobody(const std::filesystem::path& directory) {
-    constexpr unsigned nobody = 65534;
-    if (!root_) return;
-    REQUIRE(chown(directory.c_str(), nobody, nobody) == 0);
-    setfsuid(nobody);
-  }
-  ~AsNobody() {
-    if (root_) setfsuid(0);
-  }
-  AsNobody(const AsNobody&) = delete;
-  AsNobody& operator=(const AsNobody&) = delete;
-
- private:
-  bool root_ = geteuid() == 0;
-};
-
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -75,9 +56,9 @@ TEST_CASE("A result file has the documented layout", "[output]") {
   {
     ResultFile result = ResultFile::create(directory.path(), sample_header());
     for (std::size_t s = 0; s < 4; ++s) result.append(sample_frame(s));
-    CHECK(result.steps().size() == 4);
+    CHECK(result.outputs() == 4);
     CHECK(result.particles() == 3);
-    result.close();
+    result.settle();
   }
   CHECK_FALSE(std::filesystem::exists(next_of(result_path(directory.path()))));
   check_complete(directory.path(), 4);
@@ -90,111 +71,65 @@ TEST_CASE("A result file has the documented layout", "[output]") {
   CHECK(root.open_group("series").names() == std::vector<std::string>{"kinetic", "step_index", "time"});
   CHECK(root.open_group("series").text_attribute("time", "unit") == "s");
   CHECK(root.open_group("steps").names() == std::vector<std::string>{"00000", "00001", "00002", "00003"});
-  CHECK(root.extent("steps/00000/particles/position").columns == 2);
+  CHECK(File::open_to_read(step_path(directory.path(), 0)).root().extent("particles/position").columns == 2);
   CHECK(root.read_text("scene/verbatim") == header.scene_verbatim);
   CHECK(root.read_text("scene/resolved") == header.scene_resolved);
   CHECK(root.text_attribute(".", "title") == header.title);
   CHECK(root.text_attribute("provenance", "command") == header.provenance.command);
-  CHECK(root.read_indices("particles/body") == header.particles.body);
-  CHECK(root.read_doubles("particles/mass") == header.particles.mass);
-  CHECK(root.text_attribute("particles/mass", "unit") == "kg");
+  const ParticleConstants constants = ResultReader(directory.path()).constants();
+  CHECK(constants.body == header.particles.body);
+  CHECK(constants.mass == header.particles.mass);
+  CHECK(constants.size == header.particles.size);
+  CHECK(constants.mass_unit == "kg");
   CHECK(root.read_texts("bodies") == header.particles.bodies);
 }
 
-TEST_CASE("The shadow is brought level to the byte", "[output]") {
+TEST_CASE("An output writes its own files and the door, and those of earlier outputs stay as they are",
+          "[output]") {
   const TemporaryDirectory directory;
-  constexpr std::size_t particles = 2000;
-  RunHeader header = sample_header();
-  header.particles.body.assign(particles, 0);
-  header.particles.mass.assign(particles, 1.0);
-  ResultFile result = ResultFile::create(directory.path(), header);
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  result.append(sample_frame(0));
+  const std::string first = bytes_of(step_path(directory.path(), 0));
+  const auto written = std::filesystem::last_write_time(step_path(directory.path(), 0));
+  for (std::size_t s = 1; s < 200; ++s)
+    result.append(sample_frame(s));  // more rows than a chunk of a series has
+  CHECK(bytes_of(step_path(directory.path(), 0)) == first);
+  CHECK(std::filesystem::last_write_time(step_path(directory.path(), 0)) == written);
+  check_complete(directory.path(), 200);
+}
+
+TEST_CASE("Beyond 512 outputs the door follows in groups, and settling closes up", "[output]") {
+  const TemporaryDirectory directory;
+  constexpr std::size_t outputs = 1200;
+  std::size_t renewals = 0, shown = 0, farthest = 0;
+  ResultFile result = ResultFile::create(directory.path(), sample_header());
   std::string before;
-  for (std::size_t s = 0; s < 200; ++s) {  // more rows than a chunk of a series has
-    OutputFrame frame = sample_frame(s, particles);
-    if (s % 3 == 1) frame.fields.clear();
-    if (s > 50) frame.series.push_back({"late", "m", "begins late", 7.0});
+  for (std::size_t s = 0; s < outputs; ++s) {
+    OutputFrame frame = sample_frame(s);
+    frame.fields.clear();
     result.append(frame);
-    if (s > 0) REQUIRE(bytes_of(next_of(result_path(directory.path()))) == before);
-    before = bytes_of(result_path(directory.path()));
+    if (std::string now = bytes_of(result_path(directory.path())); now != before)
+      before = std::move(now), ++renewals, shown = s + 1;
+    farthest = std::max(farthest, s + 1 - shown);
+    if (s < 512) REQUIRE(shown == s + 1);
   }
+  CHECK(renewals < outputs - 200);
+  CHECK(farthest <= outputs / 512);
+  result.settle();
+  CHECK(ResultReader(directory.path()).steps().size() == outputs);
 }
 
-TEST_CASE("What another program adds to a result between two outputs is kept", "[output]") {
+TEST_CASE("An output of another run in the place of one is an error", "[output]") {
   const TemporaryDirectory directory;
   ResultFile result = ResultFile::create(directory.path(), sample_header());
-  for (std::size_t s = 0; s < 6; ++s) {
-    result.append(sample_frame(s));
-    if (s != 2) continue;
-    File file = File::open_to_write(result_path(directory.path()));
-    file.root().set_attribute(".", "note", std::string("a plate like last year's"));
-    file.close();
-  }
-  check_complete(directory.path(), 6);
-  const File file = File::open_to_read(result_path(directory.path()));
-  CHECK(file.root().text_attribute(".", "note") == "a plate like last year's");
-}
-
-TEST_CASE("What another program changes in a file that an output has just replaced harms no result",
-          "[output]") {
-  const TemporaryDirectory directory;
-  ResultFile result = ResultFile::create(directory.path(), sample_header());
-  for (std::size_t s = 0; s < 6; ++s) {
-    result.append(sample_frame(s));
-    check_complete(directory.path(), s + 1);
-    if (s == 0 || s == 4) continue;
-    // It has opened result.h5 before the output, and goes on with what is the shadow now.
-    File file = File::open_to_write(next_of(result_path(directory.path())));
-    for (int n = 0; n < 40; ++n)
-      file.root().set_attribute(".", "note " + std::to_string(n), std::string(500, 'x'));
-    file.close();
-  }
-}
-
-TEST_CASE("A result that was replaced by an older one is an error, not a gap", "[output]") {
-  const TemporaryDirectory directory;
-  const std::filesystem::path path = result_path(directory.path()), older = directory.path() / "older.h5";
-  ResultFile result = ResultFile::create(directory.path(), sample_header());
-  for (std::size_t s = 0; s < 3; ++s) {
-    if (s == 2) std::filesystem::copy_file(path, older);
-    result.append(sample_frame(s));
-  }
-  std::filesystem::rename(older, path);
-  for (int attempt = 0; attempt < 2; ++attempt)
-    CHECK_THROWS_WITH(result.append(sample_frame(3)),
-                      contains_text("holds 2 outputs, but this run has written 3"));
-  check_complete(directory.path(), 2);
-}
-
-TEST_CASE("A result that is write-protected or that others read goes on, one that others write does not",
-          "[output]") {
-  const TemporaryDirectory directory;
-  const std::filesystem::path path = result_path(directory.path());
-  const AsNobody not_root(directory.path());
-  ResultFile result = ResultFile::create(directory.path(), sample_header());
-  for (std::size_t s = 0; s < 6; ++s) {
-    result.append(sample_frame(s));
-    using std::filesystem::perms;
-    if (s == 1) std::filesystem::permissions(path, perms::owner_read | perms::group_read);
-  }
-  {
-    const File reader = File::open_to_read(path);
-    result.append(sample_frame(6));
-  }
-  {
-    File writer = File::open_to_write(path);
-    CHECK_THROWS_WITH(result.append(sample_frame(7)),
-                      contains_text("result.h5: another program has it open for writing"));
-    writer.close();
-  }
-  result.append(sample_frame(7));
-  check_complete(directory.path(), 8);
-}
-
-TEST_CASE("Without exchange of names the shadow is renamed", "[output]") {
-  const TemporaryDirectory directory;
-  ResultFile result = ResultFile::create(directory.path(), sample_header(), ResultFile::Publishing::replace);
   for (std::size_t s = 0; s < 3; ++s) result.append(sample_frame(s));
-  check_complete(directory.path(), 3);
+  std::filesystem::copy_file(step_path(directory.path(), 2), step_path(directory.path(), 1),
+                             std::filesystem::copy_options::overwrite_existing);
+  const ResultReader reader(directory.path());
+  CHECK_THROWS_WITH(reader.output(1), contains_text("00001.h5: is of another run"));
+  CHECK_THROWS_AS(ResultFile::reopen(directory.path(), 3), FileError);
+  std::filesystem::remove(step_path(directory.path(), 0));
+  CHECK_THROWS_WITH(reader.output(0), contains_text("00000.h5: cannot open the file as HDF5: "));
 }
 
 TEST_CASE("Series may begin late, and frames may have no particles", "[output]") {
@@ -207,7 +142,7 @@ TEST_CASE("Series may begin late, and frames may have no particles", "[output]")
   result.append(frame);
   result.append(frame);
   const ResultReader reader(directory.path());
-  CHECK(reader.steps()[2].fields.empty());
+  CHECK(reader.output(2).fields().empty());
   for (const StoredSeries& series : reader.series())
     if (series.name == "late") {
       REQUIRE(series.values.size() == 3);
@@ -223,7 +158,15 @@ TEST_CASE("A reopened result drops later outputs and goes on", "[output]") {
     for (std::size_t s = 0; s < 5; ++s) result.append(sample_frame(s));
   }
   const std::size_t kept = GENERATE(0U, 2U, 5U);
+  std::ofstream(steps_path(directory.path()) / ".00004.h5.next") << "of a run that was killed";
+  std::ofstream(steps_path(directory.path()) / "notes") << "kept";
   ResultFile result = ResultFile::reopen(directory.path(), kept);
+  for (std::size_t s = 0; s < 6; ++s) {
+    CHECK(std::filesystem::exists(step_path(directory.path(), s)) == (s < kept));
+    CHECK(std::filesystem::exists(step_xdmf_path(directory.path(), s)) == (s < kept));
+  }
+  CHECK(std::filesystem::exists(steps_path(directory.path()) / ".00004.h5.next") == (kept == 5));
+  CHECK(std::filesystem::exists(steps_path(directory.path()) / "notes"));
   check_complete(directory.path(), kept);
   for (std::size_t s = kept; s < 7; ++s) result.append(sample_frame(s));
   check_complete(directory.path(), 7);
@@ -240,7 +183,7 @@ TEST_CASE("A reader keeps the version it opened while the run goes on", "[output
   const ResultReader reader(directory.path());
   for (std::size_t s = 2; s < 6; ++s) result.append(sample_frame(s));
   CHECK(reader.steps().size() == 2);
-  CHECK(reader.field(1, "damage").values == sample_frame(1).fields[1].values);
+  CHECK(reader.output(1).field("damage").values == sample_frame(1).fields[1].values);
   check_complete(directory.path(), 6);
 }
 
@@ -285,7 +228,7 @@ TEST_CASE("When the disk is full the error is reported and the result is as befo
       }
     }
     result.append(sample_frame(1));
-    exit(result.steps().size() == 2 ? 0 : 2);  // through HDF5's own clean-up
+    exit(result.outputs() == 2 ? 0 : 2);
   }
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);

@@ -11,14 +11,14 @@ inline RunHeader sample_header() {
   header.scene_resolved = "title = \"x\"\n";
   header.provenance = {"0.1", "abc",  "vitrum run 'a b.toml'", "6.4.1",
                        "GNU", "here", "2026-01-31T12:00:00Z",  "00ff"};
-  header.particles = {{"plate", "cylinder"}, {0, 0, 1}, {1.0, 2.0, 3.0}, "kg"};
+  header.particles = {{"plate", "cylinder"}, {0, 0, 1}, {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, "kg"};
   return header;
 }
 
 /// Output number `index`; every number in it tells which output it belongs to.
 inline OutputFrame sample_frame(std::size_t index, std::size_t particles = 3) {
   const double base = static_cast<double>(index) * 1000.0;
-  OutputFrame frame{1.0e-6 * static_cast<double>(index), static_cast<std::int64_t>(10 * index), {}, {}};
+  OutputFrame frame{1.0e-6 * static_cast<double>(index), static_cast<std::int64_t>(10 * index), {}, {}, {}};
   Field position{"position", "m", "position (r, z)", 2, {}}, damage{"damage", "1", "damage", 1, {}};
   for (std::size_t p = 0; p < particles; ++p) {
     position.values.push_back(base + static_cast<double>(p));

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -5,6 +6,7 @@
 #include "contains_text.hpp"
 #include "output/atomic_file.hpp"
 #include "output/energy_csv.hpp"
+#include "output/result_file.hpp"
 #include "output/summary.hpp"
 #include "output/xdmf.hpp"
 #include "sample_run.hpp"
@@ -69,8 +71,9 @@ TEST_CASE("The summary says null where nothing happened", "[output]") {
   plate.failure.separated = 2;
   summary.bodies.push_back(plate);
   const nlohmann::ordered_json json = to_json(summary);
-  for (const char* key : {"status", "message", "time", "particles", "wall_seconds", "threads", "integrator",
-                          "constitutive", "energy", "failure", "bodies", "provenance"})
+  for (const char* key :
+       {"status", "message", "time", "particles", "wall_seconds", "total_seconds", "threads", "integrator",
+        "constitutive", "energy", "failure", "bodies", "provenance"})
     CHECK(json.contains(key));
   CHECK(json["status"] == "complete");
   CHECK(json["message"].is_null());
@@ -114,19 +117,56 @@ TEST_CASE("The summary reports what happened and lists the largest fragments", "
   CHECK(fragments["list"][0]["velocity"][1] == 3.0);
 }
 
-TEST_CASE("result.xdmf names every output and field", "[output]") {
+TEST_CASE("result.xdmf includes the outputs that can be drawn, and those name their blocks and fields",
+          "[output]") {
   const TemporaryDirectory directory;
-  ResultFile result = ResultFile::create(directory.path(), sample_header());
+  RunHeader header = sample_header();
+  header.particles.bodies[0] = "a <\"plate\"> & co";
+  ResultFile result = ResultFile::create(directory.path(), header);
   OutputFrame bare = sample_frame(1);
   bare.fields.clear();
   result.append(sample_frame(0));
   result.append(bare);
   result.append(sample_frame(2));
-  write_xdmf(result);
-  const std::string text = content(directory.path() / "result.xdmf");
-  CHECK_THAT(text,
+  CHECK_THAT(content(directory.path() / "result.xdmf"), contains_text("href=\"steps/00000.xmf\"") &&
+                                                            contains_text("href=\"steps/00002.xmf\"") &&
+                                                            !contains_text("00001"));
+  CHECK_FALSE(std::filesystem::exists(step_xdmf_path(directory.path(), 1)));
+  CHECK_THAT(content(step_xdmf_path(directory.path(), 2)),
              contains_text("<Time Value=\"2e-06\"/>") &&
-                 contains_text("result.h5:/steps/00002/particles/position") &&
+                 contains_text("<Grid Name=\"a &lt;&quot;plate&quot;> &amp; co\"") &&
+                 contains_text("steps/00002.h5:/drawn/1/position") &&
+                 contains_text("steps/particles.h5:/drawn/1/mass") &&
                  contains_text("<Attribute Name=\"damage\" AttributeType=\"Scalar\" Center=\"Node\">") &&
-                 contains_text("Dimensions=\"3 2\"") && !contains_text("00001"));
+                 contains_text("Dimensions=\"2 2\""));
+}
+
+TEST_CASE("What is drawn: vectors of three, tensors in the order of VTK, and invariants of stress",
+          "[output]") {
+  const ParticleConstants constants{{"a", "b"}, {0, 1, 1}, {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, "kg"};
+  const Field position{"position", "m", "", 2, {0, 1, 2, 3, 4, 5}},
+      velocity{"velocity", "m/s", "", 2, {0, 1, 2, 3, 4, 5}},
+      stress{"stress", "Pa", "", 4, {1, 2, 3, 4, 5, 5, 5, 0, 0, 0, 0, 2}},
+      r{"normal_r", "1", "", 1, {1, 0, 0.6}}, z{"normal_z", "1", "", 1, {0, 1, 0.8}};
+  const OutputFrame frame{0.0, 0, {position, velocity, stress, r, z}, {}, {0, -1, 0}};
+  const std::vector<DrawnBody> bodies = drawing(frame, constants);
+  REQUIRE(bodies.size() == 2);
+  CHECK(bodies[1].name == "b");
+  CHECK(bodies[1].particles == 2);
+  const auto values = [&](const std::string& name) {
+    for (const DrawnArray& array : bodies[1].arrays)
+      if (array.name == name) return array.values;
+    return std::vector<double>{-77.0};
+  };
+  CHECK(values("position") == std::vector<double>{2, 3, 4, 5});
+  CHECK(values("velocity") == std::vector<double>{2, 3, 0, 4, 5, 0});
+  CHECK(values("stress") == std::vector<double>{5, 5, 5, 0, 0, 0, 0, 0, 0, 2, 0, 0});
+  CHECK(values("normal") == std::vector<double>{0, 1, 0, 0.6, 0.8, 0});
+  CHECK(values("normal_r") == std::vector<double>{-77.0});
+  CHECK(values("pressure") == std::vector<double>{-5, 0});
+  CHECK(values("von_mises") == std::vector<double>{0, std::sqrt(12.0)});
+  CHECK(values("mass") == std::vector<double>{2, 3});
+  CHECK(values("size") == std::vector<double>{0.2, 0.3});
+  CHECK(values("fragment") == std::vector<double>{-1, 0});
+  CHECK(drawing({0.0, 0, {velocity}, {}, {}}, constants).empty());
 }
