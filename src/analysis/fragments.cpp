@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <compare>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -32,43 +32,43 @@ class DisjointSets {
 
 constexpr double reach_in_cells = 1.5;
 
-/// A square of that side. Its coordinates are whole, but doubles: the last step of a run that blows up throws
-/// particles farther than integers count.
-struct Bin {
+/// A particle in its square of that side. Coordinates of squares are whole, but doubles: the last step of a
+/// run that blows up throws particles farther than integers count.
+struct Placed {
   double column, row;
-  bool operator==(const Bin&) const = default;
+  std::size_t particle;
+  auto operator<=>(const Placed&) const = default;
 };
-struct BinHash {
-  std::size_t operator()(const Bin& bin) const {
-    const std::hash<double> hash;
-    return hash(bin.column) * 0x9e3779b97f4a7c15U + hash(bin.row);
-  }
-};
+
+/// The unseparated particles, by column and row.
+std::vector<Placed> placed(const Particles& p, const std::vector<double>& decohesion, double side) {
+  std::vector<Placed> order;
+  for (std::size_t i = 0; i < p.size; ++i)
+    if (decohesion[i] < 1.0)
+      order.push_back({std::floor(p.position[0][i] / side), std::floor(p.position[1][i] / side), i});
+  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) { return a < b; });
+  return order;
+}
 
 std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_index) {
   const Particles& p = system.bodies[body_index].particles;
   const std::vector<double>& decohesion = p.variables[static_cast<std::size_t>(Variable::decohesion)];
   const double reach = reach_in_cells * system.cell;
-  const auto bin_of = [&](std::size_t i) {
-    return Bin{std::floor(p.position[0][i] / reach), std::floor(p.position[1][i] / reach)};
-  };
-  std::unordered_map<Bin, std::vector<std::size_t>, BinHash> bins;
-  for (std::size_t i = 0; i < p.size; ++i)
-    if (decohesion[i] < 1.0) bins[bin_of(i)].push_back(i);
+  const std::vector<Placed> order = placed(p, decohesion, reach);
   DisjointSets sets(p.size);
-  for (std::size_t i = 0; i < p.size; ++i) {
-    if (!(decohesion[i] < 1.0)) continue;
-    const Bin home = bin_of(i);
-    for (const double di : {-1.0, 0.0, 1.0})
-      for (const double dj : {-1.0, 0.0, 1.0}) {
-        const auto bin = bins.find({home.column + di, home.row + dj});
-        if (bin == bins.end()) continue;
-        for (const std::size_t j : bin->second)
-          if (j < i &&
-              std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
-            sets.join(i, j);
+  for (const Placed& home : order)
+    for (const double beside : {-1.0, 0.0, 1.0}) {
+      // The squares of that column from the one below to the one above follow each other.
+      auto other =
+          std::lower_bound(order.begin(), order.end(), Placed{home.column + beside, home.row - 1.0, 0});
+      for (; other != order.end() && other->column == home.column + beside && other->row <= home.row + 1.0;
+           ++other) {
+        const std::size_t i = home.particle, j = other->particle;
+        if (j < i && sets.root(i) != sets.root(j) &&
+            std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
+          sets.join(i, j);
       }
-  }
+    }
   std::unordered_map<std::size_t, std::size_t> piece_of_root;
   std::vector<ConnectedPiece> pieces;
   for (std::size_t i = 0; i < p.size; ++i) {

@@ -83,8 +83,8 @@ class Group {
 
   /// New extendible one-dimensional array without rows; rows that are never written read as NaN.
   void create_series(const std::string& name) const;
-  /// Writes one row of such an array, extending it when necessary.
-  void write_row(const std::string& name, std::size_t row, double value) const;
+  /// Writes rows of such an array from `first` on, extending it when necessary.
+  void write_rows(const std::string& name, std::size_t first, std::span<const double> values) const;
   /// Drops all rows of such an array but the first `rows`.
   void keep_rows(const std::string& name, std::size_t rows) const;
 

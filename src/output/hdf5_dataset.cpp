@@ -110,17 +110,18 @@ void Group::create_series(const std::string& name) const {
       H5Dclose, where, "create the series");
 }
 
-void Group::write_row(const std::string& name, std::size_t row, double value) const {
+void Group::write_rows(const std::string& name, std::size_t first, std::span<const double> values) const {
   const std::string where = member(name);
   const Handle dataset = open_array(handle_.id(), name, where);
-  const hsize_t start = row, count = 1, size = std::max<hsize_t>(array_extent(dataset, where).rows, row + 1);
+  const hsize_t start = first, count = values.size(),
+                size = std::max<hsize_t>(array_extent(dataset, where).rows, first + values.size());
   checked(H5Dset_extent(dataset.id(), &size), where, "extend the series");
   const Handle space = own(H5Dget_space(dataset.id()), H5Sclose, where, "read the series' shape");
   checked(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr), where,
-          "select a row");
-  const Handle single = own(H5Screate_simple(1, &count, nullptr), H5Sclose, where, "describe a row");
-  checked(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, single.id(), space.id(), H5P_DEFAULT, &value), where,
-          "write a row");
+          "select rows");
+  const Handle rows = own(H5Screate_simple(1, &count, nullptr), H5Sclose, where, "describe rows");
+  checked(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, rows.id(), space.id(), H5P_DEFAULT, values.data()), where,
+          "write rows");
 }
 
 void Group::keep_rows(const std::string& name, std::size_t rows) const {

@@ -34,9 +34,14 @@ std::string Group::member(const std::string& name) const {
 }
 
 Group Group::create_group(const std::string& name) const {
-  return Group(own(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                   member(name), "create the group"),
-               member(name));
+  // Members up to so many stand in the group itself; an index of them costs more than it saves.
+  constexpr unsigned most = 64, fewest = 48;
+  const std::string where = member(name);
+  const Handle creation = own(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, where, "describe the group");
+  checked(H5Pset_link_phase_change(creation.id(), most, fewest), where, "describe the group");
+  return Group(own(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose,
+                   where, "create the group"),
+               where);
 }
 
 Group Group::open_group(const std::string& name) const {

@@ -31,8 +31,8 @@ A folder may be moved and copied as a whole: the links in it are relative.
   at any moment, also after `kill -9`, each is complete, in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
 - `result.h5` always leads to the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
   read while the run goes on; a program that has it open keeps the version that it opened. What others write into it is lost at the next output.
-- The door grows with the number of outputs, by some 250 bytes each. So that the time of a run does not grow with the square of that number, it
-  follows in groups of n/512 from the 512th output on, unless a second has passed since. Outputs that it does not show yet are complete all the same.
+- The door grows with the number n of outputs, by some 250 bytes each. So that the time of a run does not grow with the square of that number, it
+  follows in groups of n/64 where outputs follow each other within 50 ms. Outputs that it does not show yet are complete all the same.
 - A power cut, unlike a kill, may cost what came after the last checkpoint: outputs are forced to disk when a checkpoint is written and at the end of
   the run, not one by one. Whole files of outputs may be missing or empty then; `--resume` goes on from the checkpoint.
 - A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line.

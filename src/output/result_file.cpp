@@ -60,7 +60,7 @@ ResultFile ResultFile::create(const std::filesystem::path& directory, const RunH
   put_in_place(particles_path(directory), text_of(particles.close()));
   write_header(door.root(), header);
   ResultFile result(directory, std::string(text_of(door.close())), header.particles);
-  result.show();
+  put_in_place(result_path(directory), result.door_);
   return result;
 }
 
@@ -79,7 +79,8 @@ ResultFile ResultFile::reopen(const std::filesystem::path& directory, std::size_
     result.times_.push_back(earlier.steps()[index].time);
     if (std::filesystem::exists(step_xdmf_path(directory, index))) result.drawn_.push_back(index);
   }
-  result.show();
+  put_in_place(result_path(directory), result.door_);
+  result.show_drawn();
   remove_outputs(directory, outputs);
   return result;
 }
@@ -88,11 +89,9 @@ void ResultFile::append(const OutputFrame& frame) {
   require_consistent(frame, particles());
   const std::size_t index = outputs();
   const std::vector<DrawnBody> drawn = drawing(frame, constants_);
-  File step = File::create(step_path(directory_, index)),
-       door = File::open_image(result_path(directory_), door_);
+  File step = File::create(step_path(directory_, index));
   write_step(step.root(), frame, drawn);
-  enter_step(door.root(), index, frame);
-  std::string before = std::exchange(door_, text_of(door.close()));
+  behind_.push_back({frame.time, frame.step_index, {}, frame.series, {}});
   times_.push_back(frame.time);
   if (!drawn.empty()) drawn_.push_back(index);
   try {
@@ -100,14 +99,14 @@ void ResultFile::append(const OutputFrame& frame) {
     if (!drawn.empty()) put_in_place(step_xdmf_path(directory_, index), step_xdmf(index, frame.time, drawn));
     if (door_is_due()) show();
   } catch (...) {
-    if (shown_ <= index) door_ = std::move(before), forget(index);
+    if (!behind_.empty()) forget(index);
     throw;
   }
 }
 
 /// Undoes an output that result.h5 does not lead to yet.
 void ResultFile::forget(std::size_t index) {
-  times_.resize(index);
+  behind_.pop_back(), times_.pop_back();
   std::erase(drawn_, index);
   std::error_code missing;
   std::filesystem::remove(step_path(directory_, index), missing);
@@ -115,15 +114,23 @@ void ResultFile::forget(std::size_t index) {
 }
 
 bool ResultFile::door_is_due() const {
-  constexpr std::size_t always = 512;
-  return (outputs() - shown_) * always >= outputs() ||
-         std::chrono::steady_clock::now() - shown_at_ > std::chrono::seconds(1);
+  constexpr std::size_t always = 64;
+  constexpr std::chrono::milliseconds longest(50);
+  return behind_.size() * always >= outputs() || std::chrono::steady_clock::now() - shown_at_ > longest;
 }
 
 void ResultFile::show() {
-  put_in_place(result_path(directory_), door_);
-  shown_ = outputs();
+  File door = File::open_image(result_path(directory_), door_);
+  enter_steps(door.root(), outputs() - behind_.size(), behind_);
+  std::string bytes(text_of(door.close()));
+  put_in_place(result_path(directory_), bytes);
+  door_ = std::move(bytes);
+  behind_.clear();
   shown_at_ = std::chrono::steady_clock::now();
+  show_drawn();
+}
+
+void ResultFile::show_drawn() const {
   if (drawn_.empty())
     remove_file(xdmf_path(directory_));  // of outputs that are no more
   else
@@ -131,7 +138,7 @@ void ResultFile::show() {
 }
 
 void ResultFile::settle() {
-  if (shown_ < outputs()) show();
+  if (!behind_.empty()) show();
   force_to_disk(directory_);
 }
 

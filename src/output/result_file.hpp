@@ -16,9 +16,9 @@ namespace vitrum::output {
 /// leaves complete outputs, and a door that leads to complete outputs only. Nothing is forced to disk but by
 /// settle().
 ///
-/// The door is kept in memory and written as a whole. It is small, but grows with the number of outputs: so
-/// beyond 512 of them it follows in groups of n/512, unless a second has passed, and a run's time is linear
-/// in its outputs.
+/// The door is kept in memory and written as a whole. It is small, but grows with the number n of outputs: so
+/// where they follow each other within 50 ms, it follows in groups of n/64, and a run's time is linear in its
+/// outputs.
 class ResultFile {
  public:
   /// Starts an empty result in the existing directory `directory`, replacing an earlier one. Throws
@@ -44,13 +44,14 @@ class ResultFile {
   bool door_is_due() const;
   void forget(std::size_t index);
   void show();
+  void show_drawn() const;
 
   std::filesystem::path directory_;
-  std::string door_;  ///< bytes of result.h5, with all outputs
+  std::string door_;  ///< bytes of result.h5
   ParticleConstants constants_;
   std::vector<double> times_;
-  std::vector<std::size_t> drawn_;  ///< outputs with an XDMF file
-  std::size_t shown_ = 0;           ///< outputs that result.h5 leads to
+  std::vector<std::size_t> drawn_;   ///< outputs with an XDMF file
+  std::vector<OutputFrame> behind_;  ///< outputs that result.h5 does not lead to yet, without their fields
   std::chrono::steady_clock::time_point shown_at_;
 };
 

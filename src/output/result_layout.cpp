@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <map>
 #include <numeric>
 
 namespace vitrum::output {
@@ -13,12 +15,13 @@ void describe(const Group& group, const std::string& name, const std::string& un
   group.set_attribute(name, "description", description);
 }
 
-void write_series_value(const Group& series, std::size_t row, const SeriesValue& value) {
-  if (!series.has(value.name)) {
-    series.create_series(value.name);
-    describe(series, value.name, value.unit, value.description);
-  }
-  series.write_row(value.name, row, value.value);
+/// What an output adds to the series.
+std::vector<SeriesValue> series_of(const OutputFrame& frame) {
+  std::vector<SeriesValue> values = {
+      {"time", "s", "simulated time", frame.time},
+      {"step_index", "1", "time steps taken so far", static_cast<double>(frame.step_index)}};
+  values.insert(values.end(), frame.series.begin(), frame.series.end());
+  return values;
 }
 
 std::vector<std::uint32_t> counted(std::size_t count) {
@@ -115,13 +118,21 @@ void write_step(const Group& root, const OutputFrame& frame, const std::vector<D
   write_drawn(root, drawn, false);
 }
 
-void enter_step(const Group& root, std::size_t index, const OutputFrame& frame) {
-  root.open_group("steps").link_to_file(step_name(index), "steps/" + file_of_step(index), "/");
-  const Group series = root.open_group("series");
-  write_series_value(series, index, {"time", "s", "simulated time", frame.time});
-  write_series_value(series, index,
-                     {"step_index", "1", "time steps taken so far", static_cast<double>(frame.step_index)});
-  for (const SeriesValue& value : frame.series) write_series_value(series, index, value);
+void enter_steps(const Group& root, std::size_t first, std::span<const OutputFrame> frames) {
+  const Group steps = root.open_group("steps"), series = root.open_group("series");
+  std::map<std::string, std::vector<double>> rows;
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    steps.link_to_file(step_name(first + n), "steps/" + file_of_step(first + n), "/");
+    for (const SeriesValue& value : series_of(frames[n])) {
+      if (!series.has(value.name)) {
+        series.create_series(value.name);
+        describe(series, value.name, value.unit, value.description);
+      }
+      rows.try_emplace(value.name, frames.size(), std::numeric_limits<double>::quiet_NaN()).first->second[n] =
+          value.value;
+    }
+  }
+  for (const auto& [name, values] : rows) series.write_rows(name, first, values);
 }
 
 void keep_steps(const Group& root, std::size_t outputs) {

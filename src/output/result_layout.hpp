@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,9 @@ void write_particles(const Group& root, const ParticleConstants& constants);
 /// Into steps/NNNNN.h5: an output, and what is drawn of it.
 void write_step(const Group& root, const OutputFrame& frame, const std::vector<DrawnBody>& drawn);
 
-/// Into the door: the link to output `index`, and its row of every series of the frame, making series that do
-/// not exist yet.
-void enter_step(const Group& root, std::size_t index, const OutputFrame& frame);
+/// Into the door: links to the outputs from number `first` on, and their rows of every series, making series
+/// that do not exist yet. Of the frames only time, step_index and series are looked at.
+void enter_steps(const Group& root, std::size_t first, std::span<const OutputFrame> frames);
 
 /// Takes all outputs but the first `outputs` out of the door.
 void keep_steps(const Group& root, std::size_t outputs);
