@@ -67,9 +67,10 @@ std::string step_xdmf(std::size_t index, double time, const std::vector<DrawnBod
 }
 
 std::string xdmf_text(const std::vector<std::size_t>& drawn) {
-  std::string text = std::string(xml) +
-                     "<Xdmf Version=\"2.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n  <Domain>\n"
-                     "    <Grid Name=\"outputs\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text = fmt::format(
+      "{}<Xdmf Version=\"2.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n  <Domain>\n"
+      "    <Grid Name=\"outputs\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+      xml);
   for (const std::size_t index : drawn)
     text +=
         fmt::format("      <xi:include href=\"steps/{}.xmf\" xpointer=\"element(/1)\"/>\n", step_name(index));
