@@ -16,7 +16,7 @@ namespace {
 /// Columns of a particle that every material has, its place in the grid's lists, and what an output, a
 /// checkpoint or the analysis of fragments holds besides while it is made: an output its fields, what is
 /// drawn of them, and the file of both.
-constexpr double of_particle = 8.0 * 9.0 + 12.0 + 450.0;
+constexpr double of_particle = 8.0 * 9.0 + 12.0 + 540.0;
 /// The same for each of the material's variables.
 constexpr double of_variable = 8.0 + 4.0 * 8.0;
 /// Nodal fields, the tile and the bookkeeping of a block of nodes.

@@ -80,7 +80,7 @@ class Signals(CommandLineTest):
     def test_a_second_interrupt_ends_at_once(self):
         """The run hangs in a call to the file system: nothing but that helps."""
         out = self.folder / "out"
-        third = preloaded(FAULT="STALL", FAULT_NAME="renameat2", FAULT_CALL=3)  # the third output's publication
+        third = preloaded(FAULT="STALL", FAULT_NAME="renameat2", FAULT_CALL=11)  # the third output's publication
         process = self.start("run", impact, "--out", out, *long, env=third)
         self.wait_for_line(process, "stalled\n")
         process.send_signal(signal.SIGINT)
