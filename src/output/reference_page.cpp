@@ -99,7 +99,7 @@ written, except `elastic_strain`. A variable is NaN for particles whose material
 |---|---|---|---|
 | `position` | 2 | m | (r, z) or (x, y) |
 | `velocity` | 2 | m/s | (r, z) or (x, y) |
-| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](theory.md), 1.2). Cauchy's is this over the change of volume, from which it differs by 0.1 % where the paper's glass fails |
+| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](theory.md), 1.2). Cauchy's is this over the change of volume, from which it differs by 0.1 % where such glass fails |
 | `damage` | 1 | 1 | D = 1 - K_bar/K, eq. 8 |
 )";
 
