@@ -7,12 +7,12 @@
 #include <new>
 
 #include "app/check_command.hpp"
+#include "app/compare_command.hpp"
 #include "app/messages.hpp"
 #include "app/point_command.hpp"
 #include "app/run_command.hpp"
 #include "app/usage.hpp"
 #include "mpm/computation_error.hpp"
-#include "output/compare.hpp"
 #include "output/info.hpp"
 #include "output/provenance.hpp"
 #include "output/reference_page.hpp"
@@ -118,11 +118,22 @@ int obey(int argc, char** argv) {
   info_command.add_option("RESULT", result, "result.h5 or the folder of a run")->required();
   info_command.add_flag("--json", json, "print JSON");
 
-  std::vector<std::string> compared;
+  CompareOptions compared;
   CLI::App& compare_command = *program.add_subcommand(
-      "compare", "differences between two results: quantities, and fields at common times");
-  compare_command.add_option("RESULTS", compared, "two results")->expected(2);
-  compare_command.add_flag("--json", json, "print JSON");
+      "compare", "how far results are from the first: quantities, and fields at common times");
+  compare_command.add_option("RESULTS", compared.results, "two results or more")
+      ->required()
+      ->expected(2, 1000);
+  compare_command.add_flag("--last", compared.what.last, "only the last output that both have");
+  compare_command.add_option("--fields", compared.what.fields, "only these: a,b,...")
+      ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false);
+  compare_command
+      .add_option("--tolerance", compared.tolerance,
+                  "exit status 1 where a field is further away than this, relative to the first")
+      ->check(CLI::NonNegativeNumber);
+  compare_command.add_flag("--json", compared.json, "print JSON");
 
   bool result_page = false;
   CLI::App& reference_command =
@@ -142,12 +153,11 @@ int obey(int argc, char** argv) {
   if (run_command) return run_scene(run);
   if (check_command) return check_scene(check);
   if (point_command) return drive_point(point);
+  if (compare_command) return compare(compared);
   if (version)
     show(output::version_text());
   else if (info_command)
     show(output::describe_result(result, json));
-  else if (compare_command)
-    show(output::comparison_text(output::compare_results(compared[0], compared[1]), json));
   else if (reference_command)
     show(result_page ? output::result_reference() : scene_reference());
   else {

@@ -2,8 +2,8 @@
 
 namespace vitrum::app {
 
-/// Exit statuses of the program.
-inline constexpr int exit_done = 0, exit_input = 2, exit_computation = 3, exit_file = 4;
+/// Exit statuses of the program. exit_differ: `compare` has found more than the tolerance.
+inline constexpr int exit_done = 0, exit_differ = 1, exit_input = 2, exit_computation = 3, exit_file = 4;
 
 /// The whole program: parses the arguments, runs the command, turns errors into messages on standard error
 /// and an exit status.

@@ -70,6 +70,8 @@ std::string examples_of(std::string_view command) {
       Example{"info", R"(  vitrum info out/plate
   vitrum info out/plate/result.h5 --json)"},
       Example{"compare", R"(  vitrum compare out/plate out/fast
+  vitrum compare out/plate out/fast out/plate --last --fields velocity,stress
+  vitrum compare out/plate out/fast --fields position --tolerance 1  # exit status 1 where one differs by more
   vitrum compare out/plate out/fast --json)"},
       Example{"reference", R"(  vitrum reference > scene-reference.md
   vitrum reference --result > result-format.md)"},

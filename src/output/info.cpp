@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "output/json_file.hpp"
@@ -77,6 +79,27 @@ std::string plain(const Json& value) {
   return value.is_string() ? scene::single_line(value.get<std::string>()) : value.dump();
 }
 
+/// How many outputs there are, over which times and steps, and how far apart.
+std::string outputs_text(const Json& outputs) {
+  std::string text = fmt::format("outputs ({})\n", outputs.size());
+  if (outputs.empty()) return text;
+  const Json &first = outputs.front(), &last = outputs.back();
+  text += fmt::format("  {} .. {}  t = {} .. {} s, steps {} .. {}\n", plain(first["name"]),
+                      plain(last["name"]), plain(first["time"]), plain(last["time"]),
+                      plain(first["step_index"]), plain(last["step_index"]));
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (std::size_t n = 1; n < outputs.size(); ++n) {
+    if (!outputs[n]["time"].is_number() || !outputs[n - 1]["time"].is_number()) return text;
+    const double interval = outputs[n]["time"].get<double>() - outputs[n - 1]["time"].get<double>();
+    shortest = std::min(shortest, interval), longest = std::max(longest, interval);
+  }
+  if (outputs.size() > 1)
+    text += longest - shortest <= 1e-6 * longest
+                ? fmt::format("  every {:.6g} s\n", longest)
+                : fmt::format("  {:.6g} to {:.6g} s apart\n", shortest, longest);
+  return text;
+}
+
 std::string readable(const Json& info) {
   std::string text = fmt::format("title      {}\nfile       {}\n", plain(info["title"]), plain(info["file"]));
   if (info.contains("summary")) {
@@ -91,10 +114,7 @@ std::string readable(const Json& info) {
   text += "bodies\n";
   for (const auto& [name, particles] : info["bodies"].items())
     text += fmt::format("  {:<20} {} particles\n", name, plain(particles));
-  text += fmt::format("outputs ({})\n", info["outputs"].size());
-  for (const Json& step : info["outputs"])
-    text += fmt::format("  {}  t = {} s, step {}\n", plain(step["name"]), plain(step["time"]),
-                        plain(step["step_index"]));
+  text += outputs_text(info["outputs"]);
   text += "fields (last output)\n";
   for (const auto& [name, field] : info["fields"].items())
     text += fmt::format("  {:<20} {:<8} {}\n", name, plain(field["unit"]), plain(field["description"]));

@@ -6,7 +6,7 @@ import unittest
 import h5py
 import numpy as np
 
-from support import CommandLineTest, plane_strain
+from support import CommandLineTest, overrides, plane_strain
 
 
 class Compare(CommandLineTest):
@@ -50,6 +50,86 @@ class Compare(CommandLineTest):
         text = self.vitrum("compare", a, b).stdout
         self.assertIn("energy.kinetic", text)
         self.assertIn("position", text)
+
+    def test_root_mean_squares(self):
+        a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0")
+        with h5py.File(a / "result.h5") as x, h5py.File(b / "result.h5") as y:
+            for step, time in zip(sorted(x["steps"]), self.compared(a, b)["times"]):
+                for name, field in time["fields"].items():
+                    gap = (y["steps"][step]["particles"][name][()] - x["steps"][step]["particles"][name][()]).ravel()
+                    gap = gap[~np.isnan(gap)]
+                    expected = math.sqrt(np.mean(gap**2)) if gap.size else 0.0
+                    self.assertAlmostEqual(field["rms"], expected, delta=1e-12 * expected, msg=name)
+
+    def test_a_page(self):
+        a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0")
+        text = self.vitrum("compare", a, b).stdout
+        self.assertLess(len(text.splitlines()), 45)
+        self.assertLess(max(map(len, text.splitlines())), 130)
+        last = self.compared(a, b)["times"][-1]["fields"]["velocity"]
+        line = next(line.split() for line in text.splitlines() if line.startswith("  velocity"))
+        self.assertEqual(line[1], "m/s")
+        self.assertEqual(line[2], f"{last['rms']:.3e}")
+        self.assertRegex(text, r"(?m)^  failure\.\S+ +(m|s|1) ")
+        self.assertRegex(text, r"quantities of the summaries: \d+ of \d+ differ")
+        self.assertIn("quantities of the summaries: 0 of", self.vitrum("compare", a, a).stdout)
+
+    def test_last_and_fields(self):
+        a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0")
+        whole = self.compared(a, b)
+        part = json.loads(self.vitrum("compare", a, b, "--json", "--last", "--fields", "velocity,damage").stdout)
+        self.assertEqual(part["times"], [{"time": whole["times"][-1]["time"],
+                                          "fields": {name: whole["times"][-1]["fields"][name] for name in ("velocity", "damage")}}])
+        answer = self.vitrum("compare", a, b, "--fields", "velocty,damage", status=2)
+        self.assertRegex(answer.stderr, 'error: --fields: found "velocty", expected fields of the results: .*velocity')
+
+    def test_several(self):
+        a, b, c = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0"), self.run_scene("c", "--threads", 2)
+        answer = json.loads(self.vitrum("compare", a, b, c, "--json").stdout)
+        self.assertEqual({key: answer[key] for key in answer if key != "others"}, self.compared(a, b))
+        self.assertEqual(answer["others"], [self.compared(a, c)])
+        text = self.vitrum("compare", a, b, c).stdout
+        self.assertIn(f"B  {b}/result.h5 (11 outputs)", text)
+        self.assertIn(f"B  {c}/result.h5 (11 outputs)", text)
+
+    def test_tolerance(self):
+        a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-100.001")
+        worst = max(field["relative"] for time in self.compared(a, b)["times"] for field in time["fields"].values()
+                    if field["relative"] is not None)
+        self.assertGreater(worst, 0.0)
+        self.vitrum("compare", a, a, "--tolerance", 0)
+        answer = self.vitrum("compare", a, a, b, "--tolerance", 1e-12, status=1)
+        self.assertEqual(answer.stderr, f"{b}/result.h5: differs from {a}/result.h5 by more than 1e-12\n")
+        position = max(time["fields"]["position"]["relative"] for time in self.compared(a, b)["times"])
+        self.vitrum("compare", a, b, "--fields", "position", "--tolerance", 1.01 * position)
+        self.vitrum("compare", a, b, "--fields", "position", "--tolerance", 0.99 * position, status=1)
+        without, other = self.run_scene("without", "--no-fields"), self.run_scene("other", "--no-fields", "--set", "body.1.velocity.1=-100.001")
+        self.vitrum("compare", without, a, "--tolerance", 0)
+        self.vitrum("compare", without, other, "--tolerance", 0, status=1)
+        self.vitrum("compare", a, self.run_scene("plane", scene=plane_strain), "--tolerance", 1e9, status=1)
+        self.vitrum("compare", a, b, "--tolerance", -1, status=2)
+
+    def test_without_fields(self):
+        a, without = self.run_scene("a"), self.run_scene("without", "--no-fields")
+        self.assertEqual(self.compared(a, without)["remark"], "B has no fields (--no-fields): fields are not compared")
+        self.assertEqual(self.compared(without, a)["remark"], "A has no fields (--no-fields): fields are not compared")
+        self.assertEqual(self.compared(without, without)["remark"], "neither result has fields (--no-fields)")
+
+    def test_far_from_time_zero(self):
+        """Each output is paired with itself, also where an interval is a billionth of the time."""
+        settings = overrides(time__start=1000.0, time__end=1000.00002, output__every=2e-6)
+        a, b = self.run_scene("a", *settings), self.run_scene("b", *settings, *overrides(output__every=4e-6))
+        answer = self.compared(a, a)
+        self.assertEqual(len(answer["times"]), answer["outputs"]["a"])
+        self.assertGreater(len(answer["times"]), 9)
+        for time in answer["times"]:
+            for name, field in time["fields"].items():
+                self.assertEqual((field["largest"], field["only_one"]), (0.0, 0), name)
+        with h5py.File(a / "result.h5") as x, h5py.File(b / "result.h5") as y:
+            times = [f["series/time"][()] for f in (x, y)]
+        common = [t for t in times[0] if np.any(np.abs(times[1] - t) < 1e-9)]
+        self.assertLess(len(common), len(times[0]))
+        np.testing.assert_array_equal([t["time"] for t in self.compared(a, b)["times"]], common)
 
     def test_common_times_only(self):
         a = self.run_scene("a", "--set", "output.every=5e-6")

@@ -14,6 +14,16 @@ class Info(CommandLineTest):
             self.assertIn(expected, text)
         self.assertIn("outputs (11)", self.vitrum("info", out / "result.h5").stdout)
 
+    def test_outputs_are_summed_up(self):
+        regular = self.vitrum("info", self.run_scene("regular")).stdout
+        self.assertIn("  00000 .. 00010  t = 0.0 .. 2e-05 s, steps 0 .. 1000\n  every 2e-06 s\n", regular)
+        self.assertNotIn("00005", regular)
+        irregular = self.vitrum("info", self.run_scene("irregular", *overrides(output__every=3e-6))).stdout
+        self.assertIn("  2e-06 to 3e-06 s apart\n", irregular)
+        many = self.vitrum("info", self.run_scene("many", *overrides(output__every=2e-8))).stdout
+        self.assertIn("outputs (1001)", many)
+        self.assertLess(len(many.splitlines()), 70)
+
     def test_json(self):
         out = self.run_scene("out")
         info = json.loads(self.vitrum("info", out, "--json").stdout)
