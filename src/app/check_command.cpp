@@ -63,6 +63,7 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
           {"disk_bytes", disk_space_of(scene, system, true)},
           {"threads", threads},
           {"seconds", work.seconds},
+          {"output_seconds", output_seconds(scene, system)},
           {"seconds_most", most_seconds(scene, system, work, threads)},
           {"particle_steps_a_second", particle_steps_a_second},
           {"bodies", bodies},
@@ -93,6 +94,7 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
   text += fmt::format("# {}about {} on {} thread{}, at {:g} particle-steps a second and thread\n",
                       work.is_planned ? "" : "at least ", duration_text(work.seconds), threads,
                       threads == 1 ? "" : "s", particle_steps_a_second);
+  text += fmt::format("#   and about {} for the outputs\n", duration_text(output_seconds(scene, system)));
   if (scene.constitutive.method != LocalMethod::closed_form)
     text += fmt::format(
         "#   while increments are elastic; about {} if none were (measured now with constitutive.method = "

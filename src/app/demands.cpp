@@ -33,6 +33,11 @@ double multiples(const Scene& scene, const std::optional<double>& interval) {
   return interval ? std::floor((scene.end - scene.start) / *interval) : 0.0;
 }
 
+/// No fewer than a run makes.
+double outputs_of(const Scene& scene) {
+  return multiples(scene, scene.output.every) + (scene.output.every ? 2.0 : 1.0);
+}
+
 /// What an earlier run's outputs and checkpoint take.
 double size_of_outputs(const std::filesystem::path& folder) {
   std::error_code failure;
@@ -122,6 +127,11 @@ double most_seconds(const Scene& scene, const System& system, const Work& work, 
   return work.seconds + work.evaluations * costliest_evaluation(scene, system, increment) / threads;
 }
 
+double output_seconds(const Scene& scene, const System& system) {
+  constexpr double of_output = 3e-3, of_particle = 1e-6;
+  return outputs_of(scene) * (of_output + of_particle * static_cast<double>(system.particle_count()));
+}
+
 void require_time(const Scene& scene, const System& system, const Work& work, int threads) {
   if (work.seconds <= longest_run) return;
   throw InputError(
@@ -164,9 +174,9 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
   for (const Body& body : system.bodies)
     of_checkpoint += static_cast<double>(body.particles.size) *
                      (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->variables().size())));
-  const double outputs = multiples(scene, scene.output.every) + (scene.output.every ? 2.0 : 1.0);
   // Of the checkpoint there are two while it is renewed.
-  return outputs * of_output + 60.0 * particles + 2.0 * (scene.output.checkpoint_every ? of_checkpoint : 0.0);
+  return outputs_of(scene) * of_output + 60.0 * particles +
+         2.0 * (scene.output.checkpoint_every ? of_checkpoint : 0.0);
 }
 
 void require_disk(const Scene& scene, double bytes, const std::filesystem::path& folder) {

@@ -44,7 +44,7 @@ second and thread (a warning from a day on); and, by `run`, when its outputs do 
 that stay together: fragments that fly apart take a block of grid (10 kB) each. `check` prints them; they are within a factor of 2.5 of what
 runs take. Time is counted at that rate, which the reference case with the closed form reaches at least about; with `substep` and `cvode` `check` adds a
 second figure, for a run in which no increment is elastic: it takes some increments of each material, in tension, shear and crushing, while it runs, and
-counts the slowest. A run lies between the two, as much of it is damaged or flows. A file has at most 16 MB, a dotted key 64 parts, a polygon 10,000 vertices, the path of a point 1e8 rows.
+counts the slowest. A run lies between the two, as much of it is damaged or flows. Outputs are counted apart: 3 ms each and 1 us a particle. A file has at most 16 MB, a dotted key 64 parts, a polygon 10,000 vertices, the path of a point 1e8 rows.
 
 A particle whose mass, volume, kinetic energy or energy at the speed of a wave lies outside 1e-285 to 1e285 is refused, and so are times so far from 0 that
 a step has fewer than 100 units of their last digit.

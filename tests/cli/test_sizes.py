@@ -105,6 +105,10 @@ class Estimates(CommandLineTest):
         facts = json.loads(self.vitrum("check", impact, "--json").stdout)
         self.assertEqual((facts["least_steps"], facts["threads"]), (1000, 1))
         self.assertAlmostEqual(facts["seconds"], 1000 * 200 / facts["particle_steps_a_second"])
+        of_outputs = [json.loads(self.vitrum("check", impact, *overrides(output__every=every), "--json").stdout)["output_seconds"]
+                      for every in (1e-6, 1e-8)]
+        self.assertAlmostEqual(of_outputs[1] / of_outputs[0], 91, delta=5)
+        self.assertTrue(2e-3 < of_outputs[0] / 22 < 2e-2, of_outputs)
         self.assertGreater(facts["memory_available"], facts["memory_bytes"])
         text = self.vitrum("check", impact).stdout
         self.assertRegex(text, r"# 200 particles; a run takes about \S+ kB of memory \(\S+ [MG]B available\) and \S+ MB of disk space")
