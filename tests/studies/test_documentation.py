@@ -61,6 +61,7 @@ class Documentation(unittest.TestCase):
             if first is not None:
                 until = first + (2 if paragraphs[first].startswith("#") else 1)
                 self.assertIn(title, " ".join("\n\n".join(paragraphs[:until]).split()), f"{page.name}: {paragraphs[first][:200]}")
+        self.assertIn(title, (source / "CITATION.cff").read_text())
 
 
 if __name__ == "__main__":
