@@ -88,7 +88,6 @@ void merge(FailureMeasures& all, const FailureMeasures& one) {
 
 FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.size()) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  double fastest = 0.0;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
     Extent e{{infinite, infinite}, {-infinite, -infinite}};
@@ -99,19 +98,30 @@ FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.s
     extents_.push_back(e);
     damaging_density_.push_back(
         body.material->parameters().damage ? crack_density_at(*body.material, damage_threshold) : infinite);
-    // The projectile is the fastest body; the target is the first body that can separate and that is not the
-    // projectile.
-    const std::array<double, 2> v = mean_velocity(body);
+  }
+  choose_projectile(system);
+}
+
+/// The projectile is the fastest body that has a target: the first other body that can separate and that it
+/// has not left behind.
+void FailureAnalysis::choose_projectile(const System& system) {
+  double fastest = 0.0;
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const std::array<double, 2> v = mean_velocity(system.bodies[n]);
     const double speed = std::hypot(v[0], v[1]);
-    if (speed > fastest) {
+    if (!(speed > fastest)) continue;
+    const std::size_t along = std::abs(v[1]) >= std::abs(v[0]) ? 1 : 0;
+    const double sense = v[along] < 0.0 ? -1.0 : 1.0;
+    for (std::size_t t = 0; t < system.bodies.size(); ++t) {
+      const bool is_ahead = sense < 0.0 ? extents_[n].max[along] > extents_[t].min[along]
+                                        : extents_[n].min[along] < extents_[t].max[along];
+      if (t == n || !is_ahead || !system.bodies[t].material->parameters().decohesion) continue;
       fastest = speed;
-      projectile_ = n;
-      direction_ = std::abs(v[1]) >= std::abs(v[0]) ? 1 : 0;
-      sense_ = v[direction_] < 0.0 ? -1.0 : 1.0;
+      projectile_ = n, target_ = t;
+      direction_ = along, sense_ = sense;
+      break;
     }
   }
-  for (std::size_t n = 0; n < system.bodies.size() && !target_; ++n)
-    if (n != projectile_ && system.bodies[n].material->parameters().decohesion) target_ = n;
 }
 
 void FailureAnalysis::observe(const System& system, double step) {

@@ -26,6 +26,7 @@ class FailureAnalysis {
   void restore(std::vector<Memory> memory) { memory_ = std::move(memory); }
 
  private:
+  void choose_projectile(const System& system);
   std::optional<bool> perforated(const System& system, const std::vector<ConnectedPiece>& pieces) const;
 
   /// Extent of a body at the start.

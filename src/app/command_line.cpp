@@ -131,8 +131,13 @@ int obey(int argc, char** argv) {
       ->allow_extra_args(false);
   compare_command
       .add_option("--tolerance", compared.tolerance,
-                  "exit status 1 where a field is further away than this, relative to the first")
-      ->check(CLI::NonNegativeNumber);
+                  "exit status 1 where a field (without fields: a quantity) is further away than this, "
+                  "relative to the first")
+      ->check(CLI::Validator(
+          [](const std::string& text) -> std::string {
+            return std::strtod(text.c_str(), nullptr) >= 0.0 ? "" : "found " + text + ", expected 0 or more";
+          },
+          "NONNEGATIVE"));
   compare_command.add_flag("--json", compared.json, "print JSON");
 
   bool result_page = false;

@@ -101,13 +101,14 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
     list.push_back(fmt::format("the energy account has no meaning (residual {:.3g} %): the run has blown up",
                                100.0 * residual));
   else if (account == EnergyAccount::open)
-    list.push_back(fmt::format(
-        "the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
-        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
-        s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
-            ? "most of it at remaps: try a longer integrator.remap, fewer outputs (each ends a phase), more "
-              "particles a cell, or integrator.method = \"arkode-explicit\""
-            : integrator_->advice(system_, state_.last_step)));
+    list.push_back(
+        fmt::format("the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
+                    residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+                    s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
+                        ? "most of it at remaps: try a larger integrator.remap_travel or remap_strain (a "
+                          "longer remap, if it is given), fewer outputs (each ends a phase), more "
+                          "particles a cell, or integrator.method = \"arkode-explicit\""
+                        : integrator_->advice(system_, state_.last_step)));
   if (const auto idle = idle_tolerance(scene_, s.integrator)) list.push_back(scene::single_line(*idle));
   return list;
 }

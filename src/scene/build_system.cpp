@@ -101,16 +101,18 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
 }
 
 /// Whether the faces of a boundary are planes of symmetry: it holds the component across them at 0 and leaves
-/// the other free, and no body reaches into it.
+/// the other free, and no particle stands behind its rows of nodes (its box may reach up to a cell further).
 bool mirrors(const BoundaryDefinition& boundary, const System& system) {
   const std::size_t across = boundary.fixed[0] ? 0 : 1;
   if (boundary.fixed[1 - across] || boundary.velocity[across] != 0.0) return false;
   const double slack = 1e-9 * system.cell;
+  Box held = boundary.box;
+  const mpm::Rows rows = mpm::rows_between(held.min[across], held.max[across], system.cell);
+  held.min[across] = rows.first * system.cell, held.max[across] = rows.last * system.cell;
   const auto within = [&](const Particles& p, std::size_t i) {
     bool inside = true;
     for (std::size_t c = 0; c < 2; ++c)
-      inside = inside && p.position[c][i] > boundary.box.min[c] + slack &&
-               p.position[c][i] < boundary.box.max[c] - slack;
+      inside = inside && p.position[c][i] > held.min[c] + slack && p.position[c][i] < held.max[c] - slack;
     return inside;
   };
   for (const Body& body : system.bodies)

@@ -107,7 +107,9 @@ class Compare(CommandLineTest):
         self.vitrum("compare", without, a, "--tolerance", 0)
         self.vitrum("compare", without, other, "--tolerance", 0, status=1)
         self.vitrum("compare", a, self.run_scene("plane", scene=plane_strain), "--tolerance", 1e9, status=1)
-        self.vitrum("compare", a, b, "--tolerance", -1, status=2)
+        for wrong in (-1, "nan"):
+            self.assertIn(f"found {wrong}, expected 0 or more", self.vitrum("compare", a, b, "--tolerance", wrong, status=2).stderr)
+        self.vitrum("compare", a, b, "--tolerance", "inf")
 
     def test_without_fields(self):
         a, without = self.run_scene("a"), self.run_scene("without", "--no-fields")

@@ -176,6 +176,16 @@ TEST_CASE("A punch that has passed a target of which nothing or only debris is l
   }
 }
 
+TEST_CASE("A body that leaves the target behind from the start is no projectile, however fast",
+          "[analysis]") {
+  MpmRun run(punch("plane-strain"));
+  for (double& v : run.system.bodies[1].particles.velocity[1]) v = std::abs(v);
+  const FailureAnalysis failure(run.system);
+  cut(run, 0.0, 20.0);
+  for (double& z : run.system.bodies[1].particles.position[1]) z += 20.0;
+  CHECK_FALSE(failure.report(run.system, true).perforated.has_value());
+}
+
 TEST_CASE("A scene without projectile or target has no answer to perforation", "[analysis]") {
   MpmScene scene;
   scene.tables = body("plate", box({0.0, 0.0}, {4.0, 4.0})) + models;

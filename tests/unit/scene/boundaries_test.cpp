@@ -3,6 +3,7 @@
 #include "malformed_input.hpp"
 #include "mpm/boundary.hpp"
 #include "scene/boundary_checks.hpp"
+#include "scene/build_system.hpp"
 #include "support/mpm_scene.hpp"
 #include "support/random_states.hpp"
 
@@ -108,4 +109,18 @@ TEST_CASE("A box without a node is warned of, with the nearest row", "[scene]") 
   CHECK(warnings_of("[0.2, 0]", "[0.45, 9]")[0].ends_with(
       "no row of nodes lies between x = 0.2 and 0.45 m; the nearest is at x = 0.5 m"));
   CHECK(warnings_of("[0.2, 4.1]", "[0.45, 4.3]").size() == 2);
+}
+
+TEST_CASE("A held half-plane mirrors wherever its face lies between two rows of nodes", "[scene]") {
+  const auto mirrors = [](const std::string& face) {
+    MpmScene scene;
+    scene.tables =
+        body("block", box({0.0, 0.0}, {4.0, 4.0})) + hold("[-inf, -inf]", "[inf, " + face + "]", "\"y\"");
+    return build_system(parse_scene(scene.text(), "s.toml"), 1).grid.boundaries()[0].mirrors;
+  };
+  for (const char* face : {"0", "0.1", "0.4", "0.6", "0.99"}) {
+    CAPTURE(face);
+    CHECK(mirrors(face));
+  }
+  CHECK_FALSE(mirrors("1"));  // then a row of particles stands behind the plane
 }
