@@ -108,26 +108,48 @@ void warn_of_tori(const Scene& scene, Warnings& list) {
   }
 }
 
+/// What a body or a boundary sweeps over until the end.
+Box way_of(const Scene& scene, const BodyDefinition& body) {
+  return swept(bounds(body.shape), body.velocity, scene.end - scene.start);
+}
+Box way_of(const Scene& scene, const BoundaryDefinition& wall) {
+  return wall.moves ? swept(wall.box, wall.velocity, scene.end - scene.start) : wall.box;
+}
+
 /// Bodies that sweep over no place that another body or a boundary sweeps over, with two cells around.
 void warn_of_misses(const Scene& scene, Warnings& list) {
-  const double duration = scene.end - scene.start;
-  const auto path = [&](const BodyDefinition& b) { return swept(bounds(b.shape), b.velocity, duration); };
   for (std::size_t n = 0; n < scene.bodies.size(); ++n) {
     const BodyDefinition& body = scene.bodies[n];
     if (!only_flies(scene, body)) continue;
-    const Box way = grown(path(body), 2.0 * scene.cell);
+    const Box way = grown(way_of(scene, body), 2.0 * scene.cell);
     bool meets = false;
     for (std::size_t other = 0; other < scene.bodies.size(); ++other)
       meets = meets || (other != n && (scene.bodies[other].velocity_gradient != std::array<Vector2, 2>{} ||
-                                       overlap(way, path(scene.bodies[other]))));
+                                       overlap(way, way_of(scene, scene.bodies[other]))));
     for (const BoundaryDefinition& wall : scene.boundaries)
-      meets = meets || overlap(way, wall.moves ? swept(wall.box, wall.velocity, duration) : wall.box);
+      meets = meets || overlap(way, way_of(scene, wall));
     if (meets) continue;
     list.push_back(fmt::format(
         "{}: body '{}' flies with ({:g}, {:g}) m/s and meets no other body and no boundary before "
         "time.end = {:g} s",
         scene.at(fmt::format("body.{}.velocity", n)), body.name, body.velocity[0], body.velocity[1],
         scene.end));
+  }
+}
+
+/// Boundaries that no body is at, or comes to as it starts (what it does later, nobody knows: gravity and
+/// bodies that stretch or turn are left out).
+void warn_of_idle_boundaries(const Scene& scene, Warnings& list) {
+  if (scene.gravity != Vector2{0.0, 0.0}) return;
+  for (std::size_t n = 0; n < scene.boundaries.size(); ++n) {
+    const BoundaryDefinition& wall = scene.boundaries[n];
+    const Box way = grown(way_of(scene, wall), 2.0 * scene.cell);
+    const bool meets = std::ranges::any_of(scene.bodies, [&](const BodyDefinition& body) {
+      return body.velocity_gradient != std::array<Vector2, 2>{} || overlap(way, way_of(scene, body));
+    });
+    if (!meets)
+      list.push_back(fmt::format("{}: boundary '{}' holds no node of a body, and no body heads for it",
+                                 scene.at(fmt::format("boundary.{}.box", n)), wall.name));
   }
 }
 
@@ -210,6 +232,7 @@ std::string to_text(const StartGeometry& geometry, const Scene& scene) {
 void warn_of_geometry(const Scene& scene, const System& system, Warnings& list) {
   warn_of_tori(scene, list);
   warn_of_misses(scene, list);
+  warn_of_idle_boundaries(scene, list);
   warn_of_joined(scene, system, list);
 }
 

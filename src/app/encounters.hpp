@@ -28,7 +28,8 @@ StartGeometry start_geometry(const Scene& scene, const System& system);
 nlohmann::ordered_json to_json(const StartGeometry& geometry, const Scene& scene);
 std::string to_text(const StartGeometry& geometry, const Scene& scene);
 
-/// Bodies joined across a gap, disks that are tori, bodies that fly and meet nothing.
+/// Bodies joined across a gap, disks that are tori, bodies that fly and meet nothing,
+/// boundaries that no body is at or heads for.
 void warn_of_geometry(const Scene& scene, const System& system, Warnings& list);
 
 }  // namespace vitrum::app

@@ -50,7 +50,7 @@ A particle whose mass, volume, kinetic energy or energy at the speed of a wave l
 a step has fewer than 100 units of their last digit.
 
 What is valid but hardly meant is warned of, by `check` and `run`: waves slower than 100 m/s or faster than 20 km/s (with the value that was probably meant), bodies that
-approach each other faster than waves travel in one of them, a scene in which nothing moves, a body that flies past everything, a disk or ring off the axis
+approach each other faster than waves travel in one of them, a scene in which nothing moves, a body that flies past everything, a boundary that no body is at or heads for, a disk or ring off the axis
 (a torus), bodies that do not touch but share nodes of the grid, so that one velocity field joins them. The end of an adaptive run says whether its
 tolerance acted. Warnings go to standard error, and stand in `summary.json` and `check --json` as `warnings`.
 

@@ -50,6 +50,15 @@ class Plausible(CommandLineTest):
         self.assertEqual(self.warnings(body__0__velocity__0=-10.0, body__0__box="{min=[-0.005,0],max=[0.005,0.01]}",
                                        boundary="[{box={min=[-0.1,-1],max=[-0.0051,1]},fix=['x']}]"), [])
 
+    def test_boundaries_that_no_body_is_at(self):
+        idle = r"key .boundary\.0\.box.: boundary .* holds no node of a body, and no body heads for it"
+        walls = 'boundary=[{{fix=["z"], box={{min=[{0}, {1}], max=[{2}, {3}]}}}}]'
+        for box, expected in (((0.5, -1, 0.6, 1), True), ((0, -0.5, 1, -0.4), True), ((0, -1, 1, 0), False), ((0, 0.1, 1, 0.2), True)):
+            for command in ("check", "run"):
+                out = ("--out", self.folder / "out", "--force", "--set", "time.end=1e-7") if command == "run" else ()
+                answer = self.vitrum(command, impact, *out, "--set", walls.format(*box)).stderr
+                (self.assertRegex if expected else self.assertNotRegex)(answer, idle, box)
+
     def test_gaps_and_nodes(self):
         for functions, joins in (("linear", 0.75e-3), ("gimp", 1e-3), ("bspline2", 2e-3)):
             for gap in (0.0, 0.4e-3, 0.9e-3, 3.2e-3):
