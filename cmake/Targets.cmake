@@ -1,5 +1,5 @@
 # One static library a layer. vitrum_layer(NAME [COLD] SOURCES ... LINK ...) sets warnings, sanitizers and include roots. COLD: no loop of a
-# step is in it, so that -O1, which compiles in half the time, is enough.
+# step is in it, so that -O1, which compiles faster, is enough.
 # Include roots: the project root ("materials/..", "integrators/..") and src ("tensor/..", "mpm/..").
 function(vitrum_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
@@ -16,7 +16,7 @@ function(vitrum_compile_options target)
   if(VITRUM_NATIVE)
     target_compile_options(${target} PRIVATE -O3 -march=native)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-      target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized -Wno-array-bounds)  # GCC 12 warns of its own AVX-512 header (bug 105593)
+      target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)  # GCC 12 warns of its own AVX-512 header (bug 105593)
     endif()
   endif()
   # Neither flag changes a result: no code reads errno after a mathematical function or traps a floating-point exception.

@@ -41,7 +41,7 @@ struct FailureMeasures {
 /// The `failure` block of the summary: the measures over all bodies, and what only the whole has.
 struct FailureReport : FailureMeasures {
   std::vector<FailureMeasures> bodies;  ///< each body's own, in order
-  std::optional<bool> perforated;       ///< none: no body moves, or no other one can separate
+  std::optional<bool> perforated;       ///< none: no body moves towards one that can separate
   std::vector<Fragment> fragments;      ///< by falling mass
 };
 

@@ -147,7 +147,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 | `failure.damage_threshold` | the damage D that `first_damage` waits for |
 | `failure.localised_radius_max`, `.damage_front_radius` | m; largest r of a localised particle, of a particle with D > 0.1 |
 | `failure.max_opening`, `.max_opening_radius` | m |
-| `failure.perforated` | whether the projectile is through the target, whatever is left of that ([theory](theory.md), 3); null: no body moves at the start, or no other one can separate |
+| `failure.perforated` | whether the projectile is through the target, whatever is left of that ([theory](theory.md), 3); null: no body moves at the start towards one that can separate |
 | `failure.fragments` | `count`, `largest_mass`, `total_mass`, `list` of the 100 largest {`body`, `particles`, `mass`, `centre`, `velocity`} |
 | `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, the measures of `failure` for this body alone (`first_*`, `localised`, ... `max_opening_radius`), and `fragments`, their number |
 | `provenance` | as in `result.h5` |
