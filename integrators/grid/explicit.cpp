@@ -123,12 +123,17 @@ std::string ExplicitIntegrator::advice(const System& system, double step) const 
   double critical = std::numeric_limits<double>::infinity();
   for (const Body& body : system.bodies)
     critical = std::min(critical, stability_limit(scheme_) * system.cell / body.material->wave_speed());
+  const std::string length =
+      fmt::format("the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try ",
+                  step, step / critical, critical);
+  // No smaller step would help.
+  if (scheme_ == StepScheme::usl && step <= 0.5 * critical)
+    return length +
+           "integrator.scheme = \"musl\": a node that is nearly empty has no stable step under \"usl\"";
   // Below a step that has just failed, however small that was.
   const double advised = step > 0.0 ? std::min(0.4 * critical, 0.5 * step) : 0.4 * critical;
-  return fmt::format(
-      "the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try integrator.step = "
-      "{:.2g} or integrator.courant = {:.2g}",
-      step, step / critical, critical, advised, advised / critical);
+  return length +
+         fmt::format("integrator.step = {:.2g} or integrator.courant = {:.2g}", advised, advised / critical);
 }
 
 }  // namespace vitrum

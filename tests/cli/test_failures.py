@@ -4,8 +4,9 @@ import unittest
 
 import h5py
 import numpy as np
-from support import CommandLineTest, impact, overrides, read_csv, read_summary
+from support import CommandLineTest, here, impact, overrides, read_csv, read_summary
 
+die = here / "scenes" / "die.toml"
 unstable = overrides(integrator__step=3e-7)  # 2.5 times the critical step
 
 
@@ -20,6 +21,14 @@ class Instability(CommandLineTest):
         self.assertRegex(message, r"try integrator\.step = \S+ or integrator\.courant = 0\.4")
         # And following the advice helps.
         self.run_scene("cured", *overrides(integrator__courant=0.4))
+
+    def test_where_no_step_is_stable_another_scheme_is_advised(self):
+        usl = dict(integrator__scheme='"usl"', space__shape_functions='"gimp"')
+        answer = self.vitrum("run", die, "--out", "out", "--quiet", *overrides(**usl), status=3)
+        self.assertRegex(answer.stderr, r"0\.398 times the critical step .* try integrator\.scheme = \"musl\": a node that is nearly empty")
+        # And following the advice helps.
+        energy = read_summary(self.run_scene("cured", *overrides(**usl | dict(integrator__scheme='"musl"')), scene=die))["energy"]
+        self.assertLess(abs(energy["residual"]), 1e-3 * energy["external"])
 
     def test_results_so_far_can_be_read(self):
         out = self.run_scene("out", *unstable, status=3)
