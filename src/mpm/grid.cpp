@@ -7,6 +7,22 @@
 #include "mpm/chunk.hpp"
 
 namespace vitrum::mpm {
+namespace {
+
+std::size_t count_distinct(std::vector<std::int32_t>& values) {
+  std::sort(values.begin(), values.end());
+  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+}
+
+/// Whether the blocks lie in at least as many rows as columns.
+bool are_tall(const std::vector<Block>& blocks) {
+  std::vector<std::int32_t> rows, columns;
+  for (const Block& b : blocks) rows.push_back(b.row), columns.push_back(b.column);
+  return count_distinct(rows) >= count_distinct(columns);
+}
+
+}  // namespace
+
 void Grid::rebuild(const std::vector<Body>& bodies) {
   body_count_ = bodies.size();
   find_blocks(bodies);
@@ -119,7 +135,9 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
   moved_.resize(tile_block_.size());
   for (Moved& tile : moved_) tile.clear();
   add_neighbours(by_row);
-  strips_.set(blocks_, tile_block_.size(), by_row);
+  std::vector<std::int32_t> lines;
+  for (const Block& b : blocks_) lines.push_back(by_row ? b.row : b.column);
+  strips_.set(lines, tile_block_.size());
   mark_constraints();
   for (std::size_t field = 0; field < (keeps_sums_ ? field_count : moved_field_count); ++field)
     fields_[field].resize(blocks_.size() * block_nodes);

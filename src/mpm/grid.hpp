@@ -9,8 +9,8 @@
 #include "mpm/pack.hpp"
 #include "mpm/particles.hpp"
 #include "mpm/shape.hpp"
-#include "mpm/strips.hpp"
-#include "mpm/thread_team.hpp"
+#include "parallel/strips.hpp"
+#include "parallel/thread_team.hpp"
 
 namespace vitrum::mpm {
 
@@ -110,7 +110,7 @@ class Grid {
   void rebuild(const std::vector<Body>& bodies);
   /// The same lists as rebuild, for the cost of the particles that have left since, as note_moved found: they
   /// must not have moved again. Throws as rebuild; the lists are void then.
-  void relist(const std::vector<Body>& bodies, ThreadTeam& team);
+  void relist(const std::vector<Body>& bodies, parallel::ThreadTeam& team);
   /// To be called once the particles of a tile have moved, by one thread for each tile. may_have_left: some
   /// particle may be out of the cells that the tile was made for; these are looked for at once, while their
   /// positions are in the cache.
@@ -121,7 +121,7 @@ class Grid {
   /// how many of the team's threads, each with a range of tiles; particles that change ranges are held twice
   /// meanwhile. Out of memory, particles are as before and the lists void. (Not between note_moved and
   /// relist.)
-  void sort_storage(std::vector<Body>& bodies, ThreadTeam& team, std::size_t parts);
+  void sort_storage(std::vector<Body>& bodies, parallel::ThreadTeam& team, std::size_t parts);
   /// Particles in chunks that lie otherwise, and all particles.
   std::size_t scattered() const { return scattered_; }
   std::size_t listed() const { return index_.size(); }
@@ -146,7 +146,7 @@ class Grid {
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const std::vector<std::int32_t>& tiles() const { return tile_block_; }
-  const Strips& strips() const { return strips_; }
+  const parallel::Strips& strips() const { return strips_; }
   double* field(Field f) { return fields_[static_cast<std::size_t>(f)].data(); }
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
   /// Has room for momenta and forces from now on.
@@ -258,7 +258,7 @@ class Grid {
   std::size_t body_count_ = 0;
   std::vector<Block> blocks_;
   std::vector<std::int32_t> tile_block_;  // tile -> block
-  Strips strips_;
+  parallel::Strips strips_;
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
   std::vector<std::size_t> shares_;            // first tile of each thread's
   std::vector<Moved> moved_;                   // by tile

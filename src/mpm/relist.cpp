@@ -57,7 +57,7 @@ void Grid::find_movers(std::size_t tile, const std::vector<Body>& bodies) {
   }
 }
 
-void Grid::relist(const std::vector<Body>& bodies, ThreadTeam& team) {
+void Grid::relist(const std::vector<Body>& bodies, parallel::ThreadTeam& team) {
   const auto threads = static_cast<std::size_t>(team.size());
   found_.resize(threads);
   team.on_each_thread([&](std::size_t thread) {

@@ -84,7 +84,7 @@ void Part::place(std::vector<Body>& bodies) const {
 
 }  // namespace
 
-void Grid::sort_storage(std::vector<Body>& bodies, ThreadTeam& team, std::size_t count) {
+void Grid::sort_storage(std::vector<Body>& bodies, parallel::ThreadTeam& team, std::size_t count) {
   static thread_local std::vector<Part> parts;  // of the calling thread; workers write to them
   parts.resize(count);
   const std::span<Part> all_parts = parts;  // (a thread-local name means something else in each thread)

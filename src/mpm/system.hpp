@@ -7,8 +7,8 @@
 #include "integrators/local/local_integrator.hpp"
 #include "mpm/grid.hpp"
 #include "mpm/particles.hpp"
-#include "mpm/thread_team.hpp"
-#include "mpm/wave.hpp"
+#include "parallel/thread_team.hpp"
+#include "parallel/wave.hpp"
 
 namespace vitrum {
 
@@ -36,8 +36,8 @@ struct System {
   std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
-  std::unique_ptr<mpm::ThreadTeam> team;
-  mpm::Wave wave;  ///< how the team goes over the grid
+  std::unique_ptr<parallel::ThreadTeam> team;
+  parallel::Wave wave;  ///< how the team goes over the grid
 
   double time = 0.0;  ///< s
   std::int64_t step_index = 0;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
+#include "mpm/computation_error.hpp"
 #include "mpm/transfer.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
@@ -129,6 +131,15 @@ std::vector<mpm::Boundary> make_boundaries(const Scene& scene, const System& sys
   return list;
 }
 
+std::unique_ptr<parallel::ThreadTeam> make_team(int threads) {
+  try {
+    return std::make_unique<parallel::ThreadTeam>(threads);
+  } catch (const std::system_error& error) {
+    throw ComputationError(fmt::format("{} threads cannot be started: {}; ask for fewer (--threads)", threads,
+                                       error.code().message()));
+  }
+}
+
 }  // namespace
 
 System build_system(const Scene& scene, int threads) {
@@ -142,8 +153,7 @@ System build_system(const Scene& scene, int threads) {
   system.grid = mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric,
                           make_boundaries(scene, system));
   system.local = make_local_integrator(scene.constitutive);
-  system.team = std::make_unique<mpm::ThreadTeam>(
-      threads > 0 ? threads : thread_count(scene, system, available_threads()));
+  system.team = make_team(threads > 0 ? threads : thread_count(scene, system, available_threads()));
   system.record.kinetic = mpm::kinetic_energy(system);
   return system;
 }

@@ -13,9 +13,9 @@
 
 #include "app/command_line.hpp"
 #include "failing_new.hpp"
-#include "mpm/wave.hpp"
 #include "output/result_layout.hpp"
 #include "output/result_reader.hpp"
+#include "parallel/wave.hpp"
 #include "tests/catch.hpp"
 #include "unit/output/temporary_directory.hpp"
 #include "vitrum_source_dir.hpp"
@@ -119,10 +119,10 @@ TEST_CASE("Memory that runs out in a wave ends it, on any thread", "[memory]") {
   for (std::size_t line = 0; line <= 40; ++line) lines.push_back(2 * line);
   const int nowhere = open("/dev/null", O_WRONLY);
   for (const int threads : {2, 3}) {
-    mpm::ThreadTeam team(threads);
+    parallel::ThreadTeam team(threads);
     int failures = 0;
     for (bool fails = true; fails; failures += fails ? 1 : 0) {
-      mpm::Wave wave;
+      parallel::Wave wave;
       const test::FailingNew memory(failures, Failing::once, nowhere);
       try {
         wave.share_out(team, lines, [](std::size_t piece) { return piece; });

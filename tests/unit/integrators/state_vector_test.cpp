@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "mpm/thread_team.hpp"
+#include "parallel/thread_team.hpp"
 #include "support/random_states.hpp"
 
 using namespace vitrum::sundials;
-using vitrum::mpm::ThreadTeam;
+using vitrum::parallel::ThreadTeam;
 using vitrum::test::Random;
 
 namespace {

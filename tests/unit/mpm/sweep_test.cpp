@@ -49,7 +49,7 @@ TEST_CASE("Strips hold every tile and block once, and share nodes with the strip
       for (std::size_t i = 0; i < run.particles(0).size; i += 89) x[0][i] += 300.0;
       refresh_grid(run.system);
       const Grid& grid = run.system.grid;
-      const Strips& strips = grid.strips();
+      const parallel::Strips& strips = grid.strips();
       std::vector<int> tiles(grid.tiles().size()), blocks(grid.blocks().size());
       std::vector<std::size_t> strip_of(blocks.size());
       for (std::size_t strip = 0; strip + 1 < strips.first_pieces.size(); ++strip) {

@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
-#include "mpm/vigil.hpp"
+#include "parallel/vigil.hpp"
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
 /// A fixed set of threads that run one loop at a time. Each thread begins with the same share of the chunks
 /// in every loop, so that what they stand for stays in its cache, and then helps the others; callers make
@@ -21,7 +21,7 @@ namespace vitrum::mpm {
 /// keeps threads that wait for each other on one processor, for seconds.
 class ThreadTeam {
  public:
-  /// Throws ComputationError when the system does not give that many threads.
+  /// Throws std::system_error when the system does not give that many threads.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -105,4 +105,4 @@ class ThreadTeam {
   std::exception_ptr thrown_;
 };
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

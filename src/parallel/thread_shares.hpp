@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
 /// Divides a row of pieces of work among threads, each a range of it, in proportion to how fast the threads
 /// were before: processors are not equally fast where others use their caches, and not all work costs the
@@ -57,4 +57,4 @@ class ThreadShares {
   std::vector<std::size_t> bounds_;  // thread n has the pieces [bounds_[n], bounds_[n + 1])
 };
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

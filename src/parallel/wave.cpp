@@ -1,4 +1,4 @@
-#include "mpm/wave.hpp"
+#include "parallel/wave.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -306,4 +306,4 @@ void Wave::run_together(ThreadTeam& team, std::span<const std::size_t> lines, st
   shares_.learn(shared.seconds);
 }
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

@@ -1,4 +1,4 @@
-#include "mpm/thread_team.hpp"
+#include "parallel/thread_team.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -7,11 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "mpm/computation_error.hpp"
 #include "tests/catch.hpp"
 
 using namespace vitrum;
-using mpm::ThreadTeam;
+using parallel::ThreadTeam;
 
 TEST_CASE("An exception on any thread reaches the caller, and the team goes on working", "[threads]") {
   for (const int threads : {1, 2, 4}) {

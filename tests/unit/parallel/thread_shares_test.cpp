@@ -1,4 +1,4 @@
-#include "mpm/thread_shares.hpp"
+#include "parallel/thread_shares.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include "tests/catch.hpp"
 
 using namespace vitrum;
-using mpm::ThreadShares;
+using parallel::ThreadShares;
 using test::Random;
 
 namespace {

@@ -1,39 +1,25 @@
-#include "mpm/strips.hpp"
+#include "parallel/strips.hpp"
 
 #include <algorithm>
 
-#include "mpm/grid.hpp"
-
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 namespace {
 
 /// A strip of fewer tiles is not worth a thread's asking for it.
 constexpr std::size_t fewest_tiles = 2;
 
-std::size_t count_distinct(std::vector<std::int32_t>& values) {
-  std::sort(values.begin(), values.end());
-  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
-}
-
 }  // namespace
 
-bool are_tall(const std::vector<Block>& blocks) {
-  std::vector<std::int32_t> rows, columns;
-  for (const Block& b : blocks) rows.push_back(b.row), columns.push_back(b.column);
-  return count_distinct(rows) >= count_distinct(columns);
-}
-
-void Strips::set(const std::vector<Block>& blocks, std::size_t tiles, bool by_row) {
+void Strips::set(std::span<const std::int32_t> lines, std::size_t tiles) {
   pieces.clear();
   first_pieces.assign(1, 0);
-  const auto line = [&](std::size_t n) { return by_row ? blocks[n].row : blocks[n].column; };
   Piece strip{0, 0, tiles, tiles};
-  while (strip.last_tile < tiles || strip.last_empty < blocks.size()) {
-    const bool tile_left = strip.last_tile < tiles, empty_left = strip.last_empty < blocks.size();
-    std::int32_t next = tile_left ? line(strip.last_tile) : line(strip.last_empty);
-    if (empty_left) next = std::min(next, line(strip.last_empty));
-    while (strip.last_tile < tiles && line(strip.last_tile) == next) ++strip.last_tile;
-    while (strip.last_empty < blocks.size() && line(strip.last_empty) == next) ++strip.last_empty;
+  while (strip.last_tile < tiles || strip.last_empty < lines.size()) {
+    const bool tile_left = strip.last_tile < tiles, empty_left = strip.last_empty < lines.size();
+    std::int32_t next = tile_left ? lines[strip.last_tile] : lines[strip.last_empty];
+    if (empty_left) next = std::min(next, lines[strip.last_empty]);
+    while (strip.last_tile < tiles && lines[strip.last_tile] == next) ++strip.last_tile;
+    while (strip.last_empty < lines.size() && lines[strip.last_empty] == next) ++strip.last_empty;
     if (strip.last_tile - strip.first_tile < fewest_tiles) continue;
     add_strip(strip);
     strip.first_tile = strip.last_tile, strip.first_empty = strip.last_empty;
@@ -60,4 +46,4 @@ void Strips::add_strip(const Piece& strip) {
   first_pieces.push_back(pieces.size());
 }
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

@@ -1,10 +1,10 @@
-#include "mpm/thread_shares.hpp"
+#include "parallel/thread_shares.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
 void ThreadShares::learn(std::span<const double> seconds) {
   if (seconds.size() != work_.size()) return;
@@ -26,4 +26,4 @@ void ThreadShares::learn(std::span<const double> seconds) {
   for (double& part : parts_) part /= sum;
 }
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

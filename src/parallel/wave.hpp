@@ -4,10 +4,10 @@
 #include <span>
 #include <type_traits>
 
-#include "mpm/thread_shares.hpp"
-#include "mpm/thread_team.hpp"
+#include "parallel/thread_shares.hpp"
+#include "parallel/thread_team.hpp"
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
 /// Takes work that lies in lines through stages, as a wave runs through the lines: a stage of a line is taken
 /// as soon as the stage before is over for it and for the lines beside it. What a line needs is then still in
@@ -76,4 +76,4 @@ class Wave {
   ThreadShares shares_;
 };
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

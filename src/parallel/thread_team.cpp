@@ -1,13 +1,8 @@
-#include "mpm/thread_team.hpp"
+#include "parallel/thread_team.hpp"
 
-#include <fmt/format.h>
-
-#include <system_error>
 #include <utility>
 
-#include "mpm/computation_error.hpp"
-
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 namespace {
 
 /// How long a thread of a team of this size waits awake. On a virtual machine, waking a thread that sleeps
@@ -34,10 +29,6 @@ ThreadTeam::ThreadTeam(int threads)
       patience_(patience_of(shares_.size())) {
   try {
     for (std::size_t i = 1; i < shares_.size(); ++i) workers_.emplace_back([this, i] { work(i); });
-  } catch (const std::system_error& error) {
-    dismiss();
-    throw ComputationError(fmt::format("{} threads cannot be started: {}; ask for fewer (--threads)", threads,
-                                       error.code().message()));
   } catch (...) {
     dismiss();
     throw;
@@ -124,4 +115,4 @@ void ThreadTeam::run(Call call, void* context) {
   if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
 }
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

@@ -1,4 +1,4 @@
-#include "mpm/wave.hpp"
+#include "parallel/wave.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -14,8 +14,8 @@
 #include "tests/catch.hpp"
 
 using namespace vitrum;
-using mpm::ThreadTeam;
-using mpm::Wave;
+using parallel::ThreadTeam;
+using parallel::Wave;
 using test::Random;
 
 namespace {

@@ -1,16 +1,14 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
-struct Block;
-
-/// The blocks of a grid in strips of whole rows, or of whole columns where there are more of these than rows:
-/// a strip shares nodes with the two beside it only, and short strips leave more of them in the cache. Strips
-/// come in pieces for threads to share, each as small as can be: what one thread has more than another, the
-/// other waits for.
+/// The blocks of a grid in strips of whole lines (rows, or columns): a strip shares nodes with the two beside
+/// it only, and short strips leave more of them in the cache. Strips come in pieces for threads to share,
+/// each as small as can be: what one thread has more than another, the other waits for.
 struct Strips {
   /// A tile, unless the strip has none: the tiles [first_tile, last_tile), with their blocks (of the same
   /// numbers), and the blocks [first_empty, last_empty) that hold no particles.
@@ -31,8 +29,8 @@ struct Strips {
   /// Strip n has the pieces [first_pieces[n], first_pieces[n + 1]).
   std::vector<std::size_t> first_pieces{0};
 
-  /// blocks: those with tiles first; both kinds by rising row (by_row) or column.
-  void set(const std::vector<Block>& blocks, std::size_t tiles, bool by_row);
+  /// lines: of every block; those with tiles first, both kinds by rising line.
+  void set(std::span<const std::int32_t> lines, std::size_t tiles);
   /// The most tiles that so many strips one after the other have.
   std::size_t most_tiles_in(std::size_t strips) const;
 
@@ -40,7 +38,4 @@ struct Strips {
   void add_strip(const Piece& strip);
 };
 
-/// Whether the blocks lie in at least as many rows as columns.
-bool are_tall(const std::vector<Block>& blocks);
-
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel

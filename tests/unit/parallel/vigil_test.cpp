@@ -1,4 +1,4 @@
-#include "mpm/vigil.hpp"
+#include "parallel/vigil.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include "tests/catch.hpp"
 
 using std::chrono::microseconds;
-using vitrum::mpm::Vigil;
+using vitrum::parallel::Vigil;
 
 TEST_CASE("Who sleeps is woken by every change", "[threads]") {
   // Two threads that answer each other; a change that is missed ends neither.

@@ -4,7 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 
-namespace vitrum::mpm {
+namespace vitrum::parallel {
 
 /// Where threads wait for what others bring about: awake for a while, because waking a thread takes long,
 /// then asleep. They never yield: on a busy machine that gives away a whole slice of time (some milliseconds)
@@ -45,4 +45,4 @@ class Vigil {
   std::condition_variable change_;
 };
 
-}  // namespace vitrum::mpm
+}  // namespace vitrum::parallel
