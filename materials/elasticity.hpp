@@ -3,6 +3,7 @@
 #include <span>
 
 #include "materials/description.hpp"
+#include "tensor/symmetric.hpp"
 
 namespace vitrum {
 

@@ -1,17 +1,25 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "materials/damage.hpp"
-#include "materials/decohesion.hpp"
-#include "materials/drucker_prager.hpp"
+#include "materials/composite/damage.hpp"
+#include "materials/composite/decohesion.hpp"
+#include "materials/composite/drucker_prager.hpp"
+#include "materials/composite/von_mises.hpp"
 #include "materials/elasticity.hpp"
-#include "materials/von_mises.hpp"
 
 namespace vitrum {
 
+/// The table of a registered law as read: the values of its keys in the order of RegisteredLaw::parameters, a
+/// number being a list of one.
+struct LawParameters {
+  std::string table;
+  std::vector<std::vector<double>> values;
+};
+
 /// A [material.NAME] table as read. An absent table is a model that is neither stored nor run.
-/// drucker_prager and von_mises exclude each other.
+/// drucker_prager and von_mises exclude each other, `law` excludes all models but elasticity.
 struct MaterialParameters {
   std::string name;
   ElasticParameters elastic;
@@ -19,6 +27,7 @@ struct MaterialParameters {
   std::optional<DruckerPragerParameters> drucker_prager;
   std::optional<VonMisesParameters> von_mises;
   std::optional<DecohesionParameters> decohesion;
+  std::optional<LawParameters> law = {};
 };
 
 }  // namespace vitrum

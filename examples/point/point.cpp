@@ -1,6 +1,6 @@
 // Strains a point of glass until a crack has opened; prints time, strain, stress, damage and events. SI
 // units.
-#include <materials/material.hpp>
+#include <materials/law.hpp>
 
 #include <cstdio>
 
@@ -12,10 +12,10 @@ int main() {
   const auto material = vitrum::make_material(glass, cell);
 
   const vitrum::SymmetricTensor increment{3.0e-5, 0.0, 0.0, 0.0};  // rr, zz, tt, rz
-  vitrum::PointState point = material->initial_state({});
+  vitrum::PointState point = material->start({});
   for (int n = 1; n <= 400; ++n) {
     vitrum::PointReport report;
-    material->respond(point, increment, step, report);
+    material->advance(point, increment, step, report);
     std::printf("%.9g %.9g %.9g %.9g", n * step, n * increment.rr, point.stress.rr, material->damage(point));
     for (const vitrum::Event& event : std::span(report.events).first(report.event_count))
       std::printf(" %s", event_name(event.kind).data());

@@ -4,15 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "materials/elastic_limit.hpp"
-
 namespace vitrum {
 
 ErrorScales error_scales(const System& system, const GivenScales& given) {
   ErrorScales scales{0.0, std::numeric_limits<double>::infinity(), system.cell};
   double wave_speed = 0.0;
   for (const Body& body : system.bodies) {
-    scales.strain = std::min(scales.strain, elastic_limit(body.material->parameters()));
+    scales.strain = std::min(scales.strain, body.material->strain_scale());
     wave_speed = std::max(wave_speed, body.material->wave_speed());
     for (std::size_t i = 0; i < body.particles.size; ++i)
       scales.velocity =

@@ -4,12 +4,12 @@ namespace vitrum {
 
 void ClosedForm::integrate(const Material& material, const ParticleColumns& particles, std::size_t begin,
                            std::size_t end, double duration, BatchReport& report) {
-  material.respond(particles, begin, end, duration, nullptr, report);
+  material.advance(particles, begin, end, duration, nullptr, report);
 }
 
 void ClosedForm::integrate(const Material& material, PointState& state,
                            const SymmetricTensor& strain_increment, double duration, PointReport& report) {
-  material.respond(state, strain_increment, duration, report);
+  material.advance(state, strain_increment, duration, report);
 }
 
 }  // namespace vitrum

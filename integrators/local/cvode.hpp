@@ -1,5 +1,5 @@
 #pragma once
-#include "integrators/local/event_driven.hpp"
+#include "integrators/local/path_follower.hpp"
 
 namespace vitrum {
 
@@ -10,9 +10,9 @@ enum class CvodeFamily { bdf, adams };
 ///
 /// A solve that fails is repeated with a small first step, then with BDF, then over ever shorter pieces of
 /// the path.
-class Cvode final : public EventDriven {
+class Cvode final : public PathFollower {
  public:
-  Cvode(const LocalTolerance& tolerance, CvodeFamily family) : EventDriven(tolerance), family_(family) {}
+  Cvode(const LocalTolerance& tolerance, CvodeFamily family) : PathFollower(tolerance), family_(family) {}
 
  protected:
   bool solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) override;

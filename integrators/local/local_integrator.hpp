@@ -1,5 +1,5 @@
 #pragma once
-#include "materials/material.hpp"
+#include "materials/law.hpp"
 
 namespace vitrum {
 

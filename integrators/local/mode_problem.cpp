@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/composite/damage.hpp"
+#include "materials/composite/decohesion.hpp"
+
 namespace vitrum {
 
 template <class Of>
@@ -23,8 +26,8 @@ ModeProblem::Values ModeProblem::rate_values(const EvolutionRates& r) {
   return v;
 }
 
-ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, const StrainPath& path,
-                         const PointState& state, double fraction)
+ModeProblem::ModeProblem(const EventDriven& material, const EvolutionMode& mode, const StrainPath& path,
+                         const CompositeState& state, double fraction)
     : material_(material),
       mode_(mode),
       path_(path),
@@ -33,10 +36,9 @@ ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, co
       parameter_end_(1.0 - fraction),
       fraction_is_unknown_(mode.may_snap_back()),
       start_values_(state_values(state)) {
-  const MaterialParameters& p = material.parameters();
   constexpr double nothing = 1.0e-100;  // keeps the scales of a point at rest off zero
   const double change = std::max(norm(path.strain), nothing), strain = norm(state.elastic_strain) + change;
-  const double energy = elastic_moduli(p.elastic).p_wave() * strain * change;  // work of the increment
+  const double energy = material.virgin_moduli().p_wave() * strain * change;  // work of the increment
   if (mode.flowing) {
     // Strength is a matter of the deviator (and of pressure, where that gives it): were its parts unknowns
     // together with the pressure, an error relative to them could be many times a strength that is small.
@@ -49,7 +51,7 @@ ModeProblem::ModeProblem(const Material& material, const EvolutionMode& mode, co
   if (mode.damaging) add(crack_density, crack_density_limit), add(damage, energy);
   if (mode.decohering()) add(decohesion, 1.0);
   if (mode.decohering() || (mode.separated() && mode.flowing)) {
-    const double u0 = p.decohesion->opening;
+    const double u0 = material.reference_opening();
     add(opening_n, u0), add(opening_t, u0);
   }
   if (mode.decohering()) add(fracture, energy);
@@ -79,9 +81,9 @@ ModeProblem::Values ModeProblem::values(const double* y) const {
   return v;
 }
 
-PointState ModeProblem::state(double parameter, const double* y) const {
+CompositeState ModeProblem::state(double parameter, const double* y) const {
   const Values v = values(y);
-  PointState s = start_;
+  CompositeState s = start_;
   s.plastic_strain = v[plastic_strain], s.crack_density = v[crack_density], s.decohesion = v[decohesion];
   s.opening_n = v[opening_n], s.opening_t = v[opening_t];
   if (mode_.flowing) {
@@ -91,7 +93,7 @@ PointState ModeProblem::state(double parameter, const double* y) const {
   }
   s.elastic_strain += (fraction(parameter, y) - start_fraction_) * path_.strain;
   if (mode_.decohering()) {
-    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const DecohesionPlane plane{s.normal};
     s.elastic_strain -=
         plane.jump_strain(s.opening_n - start_.opening_n, s.opening_t - start_.opening_t, s.effective_length);
   }
@@ -124,7 +126,7 @@ void ModeProblem::events(double parameter, const double* y, EventFunctions& func
 }
 
 void ModeProblem::settle(double parameter, double* y) const {
-  PointState s = state(parameter, y);
+  CompositeState s = state(parameter, y);
   material_.settle(mode_, s, path_);
   const Values v = state_values(s);
   for (std::size_t i = 0; i < size_; ++i)
@@ -135,8 +137,7 @@ void ModeProblem::absolute_tolerances(double relative, double absolute, double* 
   // Where the strength is small against the increment, a part of the increment would be all of the stress.
   constexpr double part_of_strength = 0.03;
   const double strength = part_of_strength * norm(deviator(start_.elastic_strain));
-  const double work =
-      2.0 * elastic_moduli(material_.parameters().elastic).shear * norm(path_.strain) * strength;
+  const double work = 2.0 * material_.virgin_moduli().shear * norm(path_.strain) * strength;
   for (std::size_t i = 0; i < size_; ++i) {
     const Unknown u = unknowns_[i];
     tolerances[i] = is_alone(u) ? absolute : absolute + relative;

@@ -1,5 +1,5 @@
 #pragma once
-#include "materials/material.hpp"
+#include "materials/composite/evolution.hpp"
 
 namespace vitrum {
 
@@ -11,8 +11,8 @@ class ModeProblem {
   static constexpr std::size_t capacity = 13;  ///< most unknowns
 
   /// The mode goes on from `state` at `fraction` of the path. The arguments must outlive the problem.
-  ModeProblem(const Material& material, const EvolutionMode& mode, const StrainPath& path,
-              const PointState& state, double fraction);
+  ModeProblem(const EventDriven& material, const EvolutionMode& mode, const StrainPath& path,
+              const CompositeState& state, double fraction);
 
   std::size_t size() const { return size_; }
   double parameter_end() const { return parameter_end_; }
@@ -36,7 +36,7 @@ class ModeProblem {
   void settle(double parameter, double* y) const;
 
   /// What y stands for.
-  PointState state(double parameter, const double* y) const;
+  CompositeState state(double parameter, const double* y) const;
   double fraction(double parameter, const double* y) const;
   /// Energies dissipated since the start of the mode, J/m^3.
   Dissipation dissipation(const double* y) const;
@@ -80,10 +80,10 @@ class ModeProblem {
   static bool is_settled(Unknown u) { return u <= opening_t && u != crack_density; }
   void add(Unknown unknown, double scale) { unknowns_[size_] = unknown, scales_[size_++] = scale; }
 
-  const Material& material_;
+  const EventDriven& material_;
   const EvolutionMode& mode_;
   const StrainPath& path_;
-  const PointState& start_;
+  const CompositeState& start_;
   double start_fraction_, parameter_end_;
   bool fraction_is_unknown_;
   Values start_values_;

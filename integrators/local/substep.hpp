@@ -1,5 +1,5 @@
 #pragma once
-#include "integrators/local/event_driven.hpp"
+#include "integrators/local/path_follower.hpp"
 
 namespace vitrum {
 
@@ -8,9 +8,9 @@ namespace vitrum {
 /// located on the substep that passes them. Stiff modes (ModeProblem::stiff) take the Rosenbrock
 /// pair of Shampine and Reichelt (orders 2 and 3) instead: an explicit one would need steps of the relaxation
 /// time.
-class Substep final : public EventDriven {
+class Substep final : public PathFollower {
  public:
-  using EventDriven::EventDriven;
+  using PathFollower::PathFollower;
 
  protected:
   bool solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) override;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mpm/point.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -12,15 +13,9 @@ double stored_energy(const System& system) {
   double sum = 0.0;
   for (const Body& body : system.bodies) {
     const Particles& p = body.particles;
-    const double specific_volume = 1.0 / body.material->parameters().elastic.density;
-    const std::vector<double>& crack_density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
-    for (std::size_t i = 0; i < p.size; ++i) {
-      PointState s;
-      s.elastic_strain = {p.elastic_strain[0][i], p.elastic_strain[1][i], p.elastic_strain[2][i],
-                          p.elastic_strain[3][i]};
-      if (!crack_density.empty()) s.crack_density = crack_density[i];
-      sum += p.mass[i] * specific_volume * body.material->secant_moduli(s).energy(s.elastic_strain);
-    }
+    const double specific_volume = 1.0 / body.material->density();
+    for (std::size_t i = 0; i < p.size; ++i)
+      sum += p.mass[i] * specific_volume * body.material->stored_energy(mpm::point_of(body, i));
   }
   return sum;
 }

@@ -6,26 +6,22 @@
 #include <numeric>
 
 #include "analysis/fragments.hpp"
-#include "materials/damage.hpp"
 #include "materials/root.hpp"
 
 namespace vitrum {
 namespace {
 
-const std::vector<double>& column(const Body& body, Variable v) {
-  return body.particles.variables[static_cast<std::size_t>(v)];
+/// Value of the column that damage grows with beyond which it exceeds `damage`.
+double value_at(const Material& material, double damage) {
+  const double most = material.columns()[*material.damage_column()].bounds.highest;
+  return first_reached(0.0, most, [&](double value) { return material.damage(value) > damage; });
 }
 
-double damage_of(const Material& material, double crack_density) {
-  PointState s;
-  s.crack_density = crack_density;
-  return material.damage(s);
-}
-
-/// Crack density beyond which the damage, which grows with it, exceeds `damage`.
-double crack_density_at(const Material& material, double damage) {
-  return first_reached(0.0, crack_density_limit,
-                       [&](double density) { return damage_of(material, density) > damage; });
+/// That column of a body's particles; empty without damage.
+const std::vector<double>& damage_column(const Body& body) {
+  static const std::vector<double> none;
+  const std::optional<std::size_t> k = body.material->damage_column();
+  return k ? body.particles.variables[*k] : none;
 }
 
 double largest(const std::vector<double>& values) {
@@ -51,9 +47,8 @@ FailureMeasures measure(const Body& body) {
   FailureMeasures m;
   const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
   const Particles& p = body.particles;
-  const auto &length = column(body, Variable::effective_length),
-             &decohesion = column(body, Variable::decohesion);
-  const auto &opening_n = column(body, Variable::opening_n), &opening_t = column(body, Variable::opening_t);
+  const auto &length = body.column("effective_length"), &decohesion = body.column("decohesion");
+  const auto &opening_n = body.column("opening_n"), &opening_t = body.column("opening_t");
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
     const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
@@ -62,10 +57,10 @@ FailureMeasures measure(const Body& body) {
     raise(m.localised_radius_max, radius);
     if (!m.max_opening || opening > *m.max_opening) m.max_opening = opening, m.max_opening_radius = radius;
   }
-  if (!column(body, Variable::crack_density).empty())
-    for (std::size_t i = 0; i < p.size; ++i)
-      if (damage_of(*body.material, column(body, Variable::crack_density)[i]) > damage_front_threshold)
-        raise(m.damage_front_radius, std::abs(p.position[0][i]));
+  const std::vector<double>& damaged = damage_column(body);
+  for (std::size_t i = 0; i < damaged.size(); ++i)
+    if (body.material->damage(damaged[i]) > damage_front_threshold)
+      raise(m.damage_front_radius, std::abs(p.position[0][i]));
   return m;
 }
 
@@ -96,8 +91,8 @@ FailureAnalysis::FailureAnalysis(const System& system) : memory_(system.bodies.s
         e.min[k] = std::min(e.min[k], x - body.particle_half_size),
         e.max[k] = std::max(e.max[k], x + body.particle_half_size);
     extents_.push_back(e);
-    damaging_density_.push_back(
-        body.material->parameters().damage ? crack_density_at(*body.material, damage_threshold) : infinite);
+    damaging_density_.push_back(body.material->damage_column() ? value_at(*body.material, damage_threshold)
+                                                               : infinite);
   }
   choose_projectile(system);
 }
@@ -115,7 +110,7 @@ void FailureAnalysis::choose_projectile(const System& system) {
     for (std::size_t t = 0; t < system.bodies.size(); ++t) {
       const bool is_ahead = sense < 0.0 ? extents_[n].max[along] > extents_[t].min[along]
                                         : extents_[n].min[along] < extents_[t].max[along];
-      if (t == n || !is_ahead || !system.bodies[t].material->parameters().decohesion) continue;
+      if (t == n || !is_ahead || !separates(system.bodies[t])) continue;
       fastest = speed;
       projectile_ = n, target_ = t;
       direction_ = along, sense_ = sense;
@@ -139,7 +134,7 @@ void FailureAnalysis::observe(const System& system, double step) {
   }
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
-    const std::vector<double>& density = column(body, Variable::crack_density);
+    const std::vector<double>& density = damage_column(body);
     // All particles, every step, until one is damaged: by numbers, which is vectorised, not by the law.
     if (memory_[n].damage || largest(density) < damaging_density_[n]) continue;
     const auto first = std::find_if(density.begin(), density.end(),

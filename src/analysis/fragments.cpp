@@ -52,7 +52,7 @@ std::vector<Placed> placed(const Particles& p, const std::vector<double>& decohe
 
 std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_index) {
   const Particles& p = system.bodies[body_index].particles;
-  const std::vector<double>& decohesion = p.variables[static_cast<std::size_t>(Variable::decohesion)];
+  const std::vector<double>& decohesion = system.bodies[body_index].column("decohesion");
   const double reach = reach_in_cells * system.cell;
   const std::vector<Placed> order = placed(p, decohesion, reach);
   DisjointSets sets(p.size);
@@ -82,10 +82,14 @@ std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_ind
 
 }  // namespace
 
+bool separates(const Body& body) {
+  return body.material->column("decohesion").has_value();
+}
+
 std::vector<ConnectedPiece> connected_pieces(const System& system) {
   std::vector<ConnectedPiece> all;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
-    if (!system.bodies[n].material->parameters().decohesion) continue;
+    if (!separates(system.bodies[n])) continue;
     for (ConnectedPiece& piece : pieces_of(system, n)) all.push_back(std::move(piece));
   }
   std::stable_sort(all.begin(), all.end(),
@@ -94,7 +98,6 @@ std::vector<ConnectedPiece> connected_pieces(const System& system) {
 }
 
 std::vector<std::vector<double>> piece_numbers(const System& system) {
-  const auto separates = [](const Body& body) { return body.material->parameters().decohesion.has_value(); };
   if (std::none_of(system.bodies.begin(), system.bodies.end(), separates)) return {};
   constexpr double separated = -1.0, not_modelled = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::vector<double>> numbers;

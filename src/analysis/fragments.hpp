@@ -6,6 +6,9 @@
 
 namespace vitrum {
 
+/// Whether particles of a body can separate: its material stores `decohesion`, which is 1 from then on.
+bool separates(const Body& body);
+
 /// A connected set of unseparated particles of one body.
 struct ConnectedPiece {
   std::size_t body;

@@ -45,12 +45,12 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
     const ShapeMeasures exact = measures(scene.bodies[n].shape, scene.geometry);
     double mass = 0.0;
     for (const double m : body.particles.mass) mass += m * whole;
-    bodies[body.name] = {{"particles", body.particles.size},
-                         {"mass", mass},
-                         {"exact_mass", body.material->parameters().elastic.density * whole *
-                                            (system.axisymmetric ? exact.moment : exact.area)},
-                         {"material", body.material->parameters().name},
-                         {"wave_speed", body.material->wave_speed()}};
+    bodies[body.name] = {
+        {"particles", body.particles.size},
+        {"mass", mass},
+        {"exact_mass", body.material->density() * whole * (system.axisymmetric ? exact.moment : exact.area)},
+        {"material", body.material->parameters().name},
+        {"wave_speed", body.material->wave_speed()}};
   }
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   const std::optional<double> step = planned_step(scene.integrator, critical);

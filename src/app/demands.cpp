@@ -173,7 +173,7 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
     }
   for (const Body& body : system.bodies)
     of_checkpoint += static_cast<double>(body.particles.size) *
-                     (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->variables().size())));
+                     (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->columns().size())));
   // Of the checkpoint there are two while it is renewed.
   return outputs_of(scene) * of_output + 60.0 * particles +
          2.0 * (scene.output.checkpoint_every ? of_checkpoint : 0.0);

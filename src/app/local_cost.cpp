@@ -20,9 +20,9 @@ constexpr std::array<SymmetricTensor, 3> directions{SymmetricTensor{1.0, 0.1, 0.
 /// The strain, to a factor of two, at which the closed form begins to dissipate; none where it does not.
 std::optional<double> onset(const Material& material, const SymmetricTensor& direction, double step) {
   for (double strain = 1e-6; strain < 0.1; strain *= 2.0) {
-    PointState s = material.initial_state({});
+    PointState s = material.start({});
     PointReport report;
-    material.respond(s, strain * direction, step, report);
+    material.advance(s, strain * direction, step, report);
     if (s.dissipated > 0.0) return strain;
   }
   return std::nullopt;
@@ -34,9 +34,9 @@ double increment_seconds(const Material& material, PointIntegrator& local, const
   constexpr int repetitions = 3, increments = 40;
   double least = 0.0;
   for (int n = 0; n < repetitions; ++n) {
-    PointState s = material.initial_state({});
+    PointState s = material.start({});
     PointReport report;
-    material.respond(s, 0.5 * limit * direction, step, report);
+    material.advance(s, 0.5 * limit * direction, step, report);
     int active = 0;
     Clock::duration taken{};
     for (int k = 0; k < increments && !report.failed(); ++k) {

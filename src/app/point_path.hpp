@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "materials/material.hpp"
+#include "materials/law.hpp"
 #include "scene/scene.hpp"
 
 namespace vitrum::app {

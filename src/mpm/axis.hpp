@@ -4,15 +4,14 @@
 namespace vitrum::mpm {
 
 /// A particle that crosses the axis changes places with its image, whose odd components have the other sign.
-/// (t = n turned by +90 degrees is odd as well.) The position is not touched.
+/// The position is not touched.
 inline void reflect_at_axis(Particles& p, std::size_t i) {
   const auto flip = [i](std::vector<double>& column) {
     if (!column.empty()) column[i] = -column[i];
   };
   flip(p.velocity[0]), flip(p.elastic_strain[3]);
   flip(p.strain_increment[3]), flip(p.spin_increment);
-  flip(p.variables[static_cast<std::size_t>(Variable::normal_r)]);
-  flip(p.variables[static_cast<std::size_t>(Variable::opening_t)]);
+  for (const std::size_t k : p.flipping) flip(p.variables[k]);
 }
 
 }  // namespace vitrum::mpm

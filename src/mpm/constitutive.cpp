@@ -12,9 +12,14 @@ namespace {
 constexpr std::size_t chunk_size = 256;
 
 /// A null pointer for every column that is empty.
-template <class Pointer, class Columns, std::size_t n>
-void point(std::array<Pointer, n>& pointers, Columns& columns) {
-  for (std::size_t k = 0; k < n; ++k) pointers[k] = columns[k].empty() ? nullptr : columns[k].data();
+template <class Pointers, class Columns>
+void point(Pointers& pointers, Columns& columns) {
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    pointers[k] = columns[k].empty() ? nullptr : columns[k].data();
+}
+template <class Pointer, class Columns>
+void point(VariableColumns<Pointer>& pointers, Columns& columns) {
+  for (auto& column : columns) pointers.push_back(column.data());
 }
 
 /// Columns of an increment that starts at `committed` and is stored in `p`, without its variables.
@@ -123,7 +128,7 @@ class Collected {
       column = copy;
     });
     for (std::size_t k = 0; k < 4; ++k) c.start_strain[k] = c.elastic_strain[k];
-    for (std::size_t k = 0; k < variable_count; ++k) c.start_variables[k] = c.variables[k];
+    for (std::size_t k = 0; k < c.variables.size(); ++k) c.start_variables[k] = c.variables[k];
     for (std::size_t k = 0; k < chunk.size(); ++k) mass_[k] = columns.mass[chunk.place(k)];
     c.mass = mass_;
     return c;
@@ -148,7 +153,7 @@ class Collected {
     all(c.elastic_strain), all(c.stress), all(c.variables);
   }
 
-  double values_[8 + variable_count][Chunk::capacity];
+  double values_[8 + most_columns][Chunk::capacity];
   double mass_[Chunk::capacity];
 };
 

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "materials/material.hpp"
+#include "materials/law.hpp"
 
 namespace vitrum {
 
@@ -17,21 +19,28 @@ struct Particles {
   std::array<std::vector<double>, 2> velocity;  ///< m/s
   std::vector<double> mass;  ///< kg per radian (axisymmetric) or per metre (plane strain); constant
   std::array<std::vector<double>, 4> elastic_strain;  ///< (rr, zz, tt, rz)
-  std::array<std::vector<double>, variable_count>
-      variables;                        ///< by Variable; empty where the material has no such variable
+  std::vector<std::vector<double>> variables;         ///< in the order of Material::columns()
+  std::vector<std::size_t> flipping;                  ///< those whose sign a mirror across the axis changes
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
 
   // Scratch, empty where passes take particles over their increments at once (mpm/transfer.hpp): strain
   // increment in the frame that turns with the particle, and turn.
   std::array<std::vector<double>, 4> strain_increment;
   std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
-  /// Stress follows from elastic strain and damage (Material::stress). Not empty: an integrator tries a state
-  /// (mpm/trial.hpp), whose stress is this instead, Pa, (rr, zz, tt, rz).
+  /// Stress follows from elastic strain and variables (Material::stress). Not empty: an integrator tries a
+  /// state (mpm/trial.hpp), whose stress is this instead, Pa, (rr, zz, tt, rz).
   std::array<std::vector<double>, 4> tried_stress;
   /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
   /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
   std::vector<double> tried_stress_zr;
 
+  /// Has room for the variables of a material from now on, at 0.
+  void keep_variables(std::span<const Component> columns) {
+    variables.assign(columns.size(), std::vector<double>(size, 0.0));
+    flipping.clear();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k].flips) flipping.push_back(k);
+  }
   /// Has room for increments from now on.
   void keep_increments() {
     for (auto& column : strain_increment) column.resize(size);
@@ -53,6 +62,12 @@ struct Body {
   double particle_half_size = 0.0;  ///< m, half the side of a particle's initial square (GIMP)
   std::optional<Coasting> coasting = std::nullopt;
 
+  /// The column of a variable by its name; empty where the material has none.
+  const std::vector<double>& column(std::string_view variable) const {
+    static const std::vector<double> none;
+    const std::optional<std::size_t> k = material->column(variable);
+    return k ? particles.variables[*k] : none;
+  }
   /// Particles that take part in the grid.
   std::size_t on_grid() const { return coasting ? 0 : particles.size; }
 };

@@ -31,8 +31,8 @@ class ChunkStress {
       follow(chunk, p, *body.material);
       return;
     }
-    for (std::size_t c = 0; c < 4; ++c) read(chunk, tried[c], c);
-    read(chunk, p.tried_stress_zr.empty() ? tried[3] : p.tried_stress_zr, 4);
+    for (std::size_t c = 0; c < 4; ++c) columns_[c] = read(chunk, tried[c], values_[c]);
+    columns_[4] = read(chunk, p.tried_stress_zr.empty() ? tried[3] : p.tried_stress_zr, values_[4]);
   }
   ChunkStress(const ChunkStress&) = delete;
   ChunkStress& operator=(const ChunkStress&) = delete;
@@ -46,17 +46,21 @@ class ChunkStress {
  private:
   void follow(const Chunk& chunk, const Particles& p, const Material& material) {
     const auto& e = p.elastic_strain;
-    const auto& density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
-    const ColumnReader e0(chunk, e[0]), e1(chunk, e[1]), e2(chunk, e[2]), e3(chunk, e[3]),
-        damage(chunk, density.empty() ? e[0] : density);
-    material.stress({e0.data(), e1.data(), e2.data(), e3.data()}, density.empty() ? nullptr : damage.data(),
-                    chunk.size(), {values_[0], values_[1], values_[2], values_[3]});
+    const ColumnReader e0(chunk, e[0]), e1(chunk, e[1]), e2(chunk, e[2]), e3(chunk, e[3]);
+    VariableColumns<const double*> variables;
+    variables.resize(p.variables.size());
+    double copies[most_columns][Chunk::capacity];
+    for (const std::size_t c : material.stress_columns())
+      variables[c] = read(chunk, p.variables[c], copies[c]);
+    material.stress({e0.data(), e1.data(), e2.data(), e3.data()}, variables, chunk.size(),
+                    {values_[0], values_[1], values_[2], values_[3]});
     for (std::size_t c = 0; c < 5; ++c) columns_[c] = values_[std::min<std::size_t>(c, 3)];
   }
-  void read(const Chunk& chunk, const std::vector<double>& column, std::size_t c) {
-    columns_[c] = chunk.contiguous() ? column.data() + chunk.place(0) : values_[c];
-    if (chunk.contiguous()) return;
-    for (std::size_t k = 0; k < chunk.size(); ++k) values_[c][k] = column[chunk.place(k)];
+  /// The column itself where the particles lie one behind the other, else a copy.
+  static const double* read(const Chunk& chunk, const std::vector<double>& column, double* copy) {
+    if (chunk.contiguous()) return column.data() + chunk.place(0);
+    for (std::size_t k = 0; k < chunk.size(); ++k) copy[k] = column[chunk.place(k)];
+    return copy;
   }
 
   const double* columns_[5];
@@ -70,7 +74,7 @@ class Contributions {
   void gather(const Chunk& chunk, const Body& body, double cell, const ColumnReader& radius) {
     const Particles& p = body.particles;
     const ColumnReader mass(chunk, p.mass), v0(chunk, p.velocity[0]), v1(chunk, p.velocity[1]);
-    const double per_cell = 1.0 / cell, specific_volume = 1.0 / body.material->parameters().elastic.density;
+    const double per_cell = 1.0 / cell, specific_volume = 1.0 / body.material->density();
     double* to = values_[0];
     const std::size_t size = chunk.size();
     const double* m = mass.data();

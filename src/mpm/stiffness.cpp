@@ -121,7 +121,7 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
       const Particles& p = system.bodies[n].particles;
       const auto& g = gradients[n].gradient;
       const FiniteStrain deformation({g[0][i], g[1][i], g[2][i], g[3][i], g[4][i]});
-      const double volume = p.mass[i] / system.bodies[n].material->parameters().elastic.density;
+      const double volume = p.mass[i] / system.bodies[n].material->density();
       const TangentEntries& T = tangents[n][i];
       const double hoop = axisymmetric ? 1.0 / hoop_radius(p.position[0][i], grid.cell()) : 0.0;
       // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears

@@ -57,7 +57,7 @@ void Part::collect(const std::vector<Body>& bodies, const std::uint32_t* offset,
     const auto begin = static_cast<std::uint32_t>(s.begin), size = static_cast<std::uint32_t>(s.from.size());
     for (std::uint32_t k = 0; k < size; ++k)
       if (s.from[k] - begin >= size) s.foreign.push_back(k);  // (places before wrap around)
-    s.values.reserve(s.foreign.size() * (10 + variable_count));
+    s.values.reserve(s.foreign.size() * (10 + bodies[body].particles.variables.size()));
     for_each_column(bodies[body].particles, [&](const auto& column) {
       for (const std::uint32_t k : s.foreign)
         if (!column.empty()) s.values.push_back(static_cast<double>(column[s.from[k]]));

@@ -11,8 +11,9 @@ std::array<std::vector<double>, 4> stress_of(const Body& body) {
     stress[c].resize(p.size);
     strain[c] = p.elastic_strain[c].data(), to[c] = stress[c].data();
   }
-  const auto& density = p.variables[static_cast<std::size_t>(Variable::crack_density)];
-  body.material->stress(strain, density.empty() ? nullptr : density.data(), p.size, to);
+  VariableColumns<const double*> variables;
+  for (const auto& column : p.variables) variables.push_back(column.data());
+  body.material->stress(strain, variables, p.size, to);
   return stress;
 }
 

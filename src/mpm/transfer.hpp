@@ -81,7 +81,7 @@ void update_stress(System& system, double duration);
 /// state, its internal variables and the record stay as they are.
 void try_stress(System& system, const Trial& trial, double duration);
 
-/// Consistent tangents of the increments of a trial in place, by body and particle (materials/tangent.hpp).
+/// Consistent tangents of the increments of a trial in place, by body and particle (Material::tangent).
 void gather_tangents(System& system, const Trial& trial, double duration,
                      std::vector<std::vector<TangentEntries>>& tangents);
 

@@ -13,7 +13,8 @@ namespace vitrum::output {
 /// The stored columns of one body, in storage order (scratch columns are neither written nor read).
 struct BodyCheckpoint {
   std::string name;
-  Particles particles;
+  Particles particles;                                   ///< without their variables
+  std::map<std::string, std::vector<double>> variables;  ///< columns by name
 };
 
 /// Everything needed to go on as if nothing had happened; every number is restored bit for bit.

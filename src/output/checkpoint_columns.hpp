@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "materials/description.hpp"
 #include "mpm/particles.hpp"
 
 namespace vitrum::output {
@@ -23,16 +22,6 @@ auto stored_columns(ParticlesType& particles) {
   columns.emplace_back("mass", &particles.mass);
   for (std::size_t c = 0; c < 4; ++c)
     columns.emplace_back(std::string("elastic_strain_") + components[c], &particles.elastic_strain[c]);
-  return columns;
-}
-
-/// The same for the internal variables; those that the material does not have are empty.
-template <class ParticlesType>
-auto variable_columns(ParticlesType& particles) {
-  using Column = std::remove_reference_t<decltype((particles.mass))>;
-  std::vector<std::pair<std::string, Column*>> columns;
-  for (const VariableInfo& info : all_variables())
-    columns.emplace_back(info.name, &particles.variables[static_cast<std::size_t>(info.variable)]);
   return columns;
 }
 

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
@@ -40,7 +42,7 @@ void require_size(const Group& group, const std::string& name, std::size_t found
 }
 
 BodyCheckpoint read_body(const Group& group) {
-  BodyCheckpoint body{group.text_attribute(".", "name"), {}};
+  BodyCheckpoint body{group.text_attribute(".", "name"), {}, {}};
   Particles& particles = body.particles;
   particles.identity = group.read_indices("identity");
   particles.size = particles.identity.size();
@@ -49,15 +51,11 @@ BodyCheckpoint read_body(const Group& group) {
     require_size(group, name, column->size(), particles.size);
   }
   const Group variables = group.open_group("variables");
-  std::size_t known = 0;
-  for (const auto& [name, column] : variable_columns(particles)) {
-    if (!variables.has(name)) continue;
-    *column = variables.read_doubles(name);
-    require_size(variables, name, column->size(), particles.size);
-    ++known;
+  for (const std::string& name : variables.names()) {
+    std::vector<double>& column = body.variables[name];
+    column = variables.read_doubles(name);
+    require_size(variables, name, column.size(), particles.size);
   }
-  if (variables.names().size() != known)
-    throw FileError(fmt::format("{}: holds a variable that this version does not know", variables.label()));
   return body;
 }
 
@@ -77,11 +75,19 @@ void require_permutation(const BodyCheckpoint& body) {
   }
 }
 
-std::string variable_list(const Particles& particles) {
-  std::string list;
-  for (const auto& [name, column] : variable_columns(particles))
-    if (!column->empty()) list += (list.empty() ? "" : ", ") + name;
-  return list.empty() ? "none" : list;
+std::string list_of(std::set<std::string> names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Takes the columns of a body by their names.
+void restore_variables(const BodyCheckpoint& stored, Body& body) {
+  std::set<std::string> found, expected;
+  for (const auto& [name, column] : stored.variables) found.insert(name);
+  for (const Component& column : body.material->columns()) expected.insert(column.name);
+  if (found != expected)
+    differ(fmt::format("variables of body '{}'", body.name), list_of(found), list_of(expected));
+  for (std::size_t k = 0; k < body.particles.variables.size(); ++k)
+    body.particles.variables[k] = stored.variables.at(body.material->columns()[k].name);
 }
 
 }  // namespace
@@ -122,16 +128,13 @@ void restore_bodies(const Checkpoint& checkpoint, std::span<Body> bodies) {
     if (stored.particles.size != body.particles.size)
       differ(fmt::format("particles of body '{}'", body.name), std::to_string(stored.particles.size),
              std::to_string(body.particles.size));
-    if (variable_list(stored.particles) != variable_list(body.particles))
-      differ(fmt::format("variables of body '{}'", body.name), variable_list(stored.particles),
-             variable_list(body.particles));
     require_permutation(stored);
+    restore_variables(stored, body);
     body.particles.identity = stored.particles.identity;
     const auto copy = [](const auto& from, const auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) *to[c].second = *from[c].second;
     };
     copy(stored_columns(stored.particles), stored_columns(body.particles));
-    copy(variable_columns(stored.particles), variable_columns(body.particles));
   }
 }
 

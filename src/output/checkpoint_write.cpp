@@ -24,8 +24,7 @@ void write_body(const Group& group, const BodyCheckpoint& body) {
   group.write("identity", body.particles.identity);
   for (const auto& [name, column] : stored_columns(body.particles)) group.write(name, *column);
   const Group variables = group.create_group("variables");
-  for (const auto& [name, column] : variable_columns(body.particles))
-    if (!column->empty()) variables.write(name, *column);
+  for (const auto& [name, column] : body.variables) variables.write(name, column);
 }
 
 void write_content(const Group& root, const Checkpoint& checkpoint) {
@@ -56,14 +55,15 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies) {
   std::vector<BodyCheckpoint> stored;
   for (const Body& body : bodies) {
-    BodyCheckpoint entry{body.name, {}};
+    BodyCheckpoint entry{body.name, {}, {}};
     entry.particles.size = body.particles.size;
     entry.particles.identity = body.particles.identity;
     const auto copy = [](const auto& from, const auto& to) {
       for (std::size_t c = 0; c < from.size(); ++c) *to[c].second = *from[c].second;
     };
     copy(stored_columns(body.particles), stored_columns(entry.particles));
-    copy(variable_columns(body.particles), variable_columns(entry.particles));
+    for (std::size_t k = 0; k < body.particles.variables.size(); ++k)
+      entry.variables[body.material->columns()[k].name] = body.particles.variables[k];
     stored.push_back(std::move(entry));
   }
   return stored;

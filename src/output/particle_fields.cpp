@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "materials/registry.hpp"
 #include "mpm/stress.hpp"
 #include "scene/input_error.hpp"
 
@@ -25,17 +26,6 @@ std::vector<std::size_t> identity_order(const Particles& particles) {
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return particles.identity[a] < particles.identity[b]; });
   return order;
-}
-
-PointState point_of(const Particles& particles, std::size_t index) {
-  PointState state;
-  const auto tensor = [index](const std::array<std::vector<double>, 4>& c) {
-    return SymmetricTensor{c[0][index], c[1][index], c[2][index], c[3][index]};
-  };
-  state.elastic_strain = tensor(particles.elastic_strain);
-  for (std::size_t v = 0; v < variable_count; ++v)
-    if (!particles.variables[v].empty()) state.*variable_members[v] = particles.variables[v][index];
-  return state;
 }
 
 /// For each body, its particles in the order of rows.
@@ -86,22 +76,17 @@ Field named(Field field, std::string name, std::string unit, std::string descrip
 }
 
 bool has_damage(const Material& material) {
-  return material.parameters().damage.has_value();
+  return material.damage_column().has_value();
 }
 
-bool has_variable(const Material& material, Variable variable) {
-  const auto variables = material.variables();
-  return std::any_of(variables.begin(), variables.end(),
-                     [variable](const VariableInfo& info) { return info.variable == variable; });
-}
-
-Field variable_field(std::span<const Body> bodies, const Rows& rows, const VariableInfo& info) {
-  const auto slot = static_cast<std::size_t>(info.variable);
+Field column_field(std::span<const Body> bodies, const Rows& rows, const Component& column) {
   return named(
       gather_scalar(
-          bodies, rows, [slot](const Body& body) { return !body.particles.variables[slot].empty(); },
-          [slot](const Body& body, std::size_t index) { return body.particles.variables[slot][index]; }),
-      std::string(info.name), std::string(info.unit), std::string(info.description) + "; NaN: not modelled");
+          bodies, rows, [&](const Body& body) { return body.material->column(column.name).has_value(); },
+          [&](const Body& body, std::size_t index) {
+            return body.particles.variables[*body.material->column(column.name)][index];
+          }),
+      column.name, column.unit, column.text + "; NaN: not modelled");
 }
 
 Field field_of(std::span<const Body> bodies, const Rows& rows, const std::string& name, Geometry geometry) {
@@ -125,14 +110,15 @@ Field field_of(std::span<const Body> bodies, const Rows& rows, const std::string
                      bodies, rows, [](const Body& b) -> auto& { return b.particles.elastic_strain; }),
                  name, "1", "elastic strain " + tensor + ", tensor shear");
   if (name == "damage")
-    return named(gather_scalar(
-                     bodies, rows, [](const Body& body) { return has_damage(*body.material); },
-                     [](const Body& body, std::size_t index) {
-                       return body.material->damage(point_of(body.particles, index));
-                     }),
-                 name, "1", "damage D = 1 - K_bar/K, eq. 8; NaN: not modelled");
-  for (const VariableInfo& info : all_variables())
-    if (info.name == name) return variable_field(bodies, rows, info);
+    return named(
+        gather_scalar(
+            bodies, rows, [](const Body& body) { return has_damage(*body.material); },
+            [](const Body& body, std::size_t index) {
+              return body.material->damage(body.particles.variables[*body.material->damage_column()][index]);
+            }),
+        name, "1", "damage D = 1 - K_bar/K, eq. 8; NaN: not modelled");
+  for (const Component& column : all_columns())
+    if (column.name == name) return column_field(bodies, rows, column);
   throw std::invalid_argument(fmt::format("no field is called '{}'", name));
 }
 
@@ -142,10 +128,11 @@ std::vector<std::string> known_fields(std::span<const Material* const> materials
   std::vector<std::string> names = {"position", "velocity", "stress"};
   if (std::any_of(materials.begin(), materials.end(), [](const Material* m) { return has_damage(*m); }))
     names.emplace_back("damage");
-  for (const VariableInfo& info : all_variables())
-    if (std::any_of(materials.begin(), materials.end(),
-                    [&info](const Material* m) { return has_variable(*m, info.variable); }))
-      names.emplace_back(info.name);
+  for (const Component& column : all_columns())
+    if (std::ranges::find(names, column.name) == names.end() &&
+        std::any_of(materials.begin(), materials.end(),
+                    [&](const Material* m) { return m->column(column.name).has_value(); }))
+      names.push_back(column.name);
   names.emplace_back("elastic_strain");
   return names;
 }

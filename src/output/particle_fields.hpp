@@ -12,7 +12,7 @@
 namespace vitrum::output {
 
 /// The fields that particles of these materials can be written with: position, velocity, stress, damage (when
-/// a material has a damage model), the materials' internal variables in the order of Variable, and
+/// a material has a damage model), the materials' columns in the order of all_columns(), and
 /// elastic_strain.
 std::vector<std::string> known_fields(std::span<const Material* const> materials);
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "materials/description.hpp"
+#include "materials/registry.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -163,8 +163,9 @@ the state of everything else. It is made for `--resume` of the same version, not
 
 std::string result_reference() {
   std::string text(before_variables);
-  for (const VariableInfo& variable : all_variables())
-    text += fmt::format("| `{}` | 1 | {} | {} |\n", variable.name, variable.unit, variable.description);
+  for (const Component& column : all_columns())
+    if (column.name != "damage")  // which the table has already
+      text += fmt::format("| `{}` | 1 | {} | {} |\n", column.name, column.unit, column.text);
   return text += after_variables;
 }
 

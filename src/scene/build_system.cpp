@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "mpm/computation_error.hpp"
+#include "mpm/point.hpp"
 #include "mpm/transfer.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
@@ -38,8 +39,7 @@ void allocate(Particles& p, const Material& material) {
   sized(p.position), sized(p.velocity), sized(p.elastic_strain);
   p.mass.assign(p.size, 0.0);
   p.identity.assign(p.size, 0);
-  for (const VariableInfo& v : material.variables())
-    p.variables[static_cast<std::size_t>(v.variable)].assign(p.size, 0.0);
+  p.keep_variables(material.columns());
 }
 
 Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Material> material) {
@@ -75,12 +75,11 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
   allocate(p, *body.material);
   const SymmetricTensor stress{definition.stress[0], definition.stress[1], definition.stress[2],
                                definition.stress[3]};
-  const PointState state = body.material->initial_state(stress);
-  const SymmetricTensor& e = state.elastic_strain;
+  const PointState state = body.material->start(stress);
   // Masses and velocities are those of the places before the shift: positions alone differ within an
   // ensemble.
   const std::vector<Vector2> shifts = displacements(definition.perturbation, scene.cell, p.size);
-  const double density = body.material->parameters().elastic.density;
+  const double density = body.material->density();
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
     if (axisymmetric && !(x[0] + shifts[i][0] > 0.0))
@@ -94,8 +93,7 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
       p.velocity[k][i] = definition.velocity[k] + G[k][0] * x[0] + G[k][1] * x[1];
     }
     p.mass[i] = density * seeds[i].area * (axisymmetric ? x[0] : 1.0);
-    const std::array<double, 4> strains{e.rr, e.zz, e.tt, e.rz};
-    for (std::size_t k = 0; k < 4; ++k) p.elastic_strain[k][i] = strains[k];
+    mpm::put_point(state, body, i);
     p.identity[i] = static_cast<std::uint32_t>(i);
   }
   require_range(scene, index, body);

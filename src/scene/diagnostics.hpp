@@ -38,6 +38,8 @@ class Diagnostics {
   void warn(const std::string& origin, const toml::source_position& where, std::string_view key,
             std::string_view fact);
 
+  /// Whether there are no faults so far.
+  bool empty() const { return faults_.empty(); }
   /// Throws InputError with all faults in the order of the file, then of the command line; returns when there
   /// are none.
   void throw_if_any() const;

@@ -66,6 +66,14 @@ KeyInfo list_key(std::string_view name, std::size_t length, const Bounds& bounds
   return key;
 }
 
+KeyInfo numbers_key(std::string_view name, const Bounds& bounds, std::string_view unit,
+                    std::string_view meaning) {
+  KeyInfo key = list_key(name, 1, bounds, unit, meaning);
+  const std::string_view plural = is_plain(bounds) ? "finite numbers" : "numbers";
+  key.expected = number_phrase(fmt::format("a list of one or more {}", plural), bounds, unit);
+  return key;
+}
+
 KeyInfo choice_key(std::string_view name, std::span<const std::string_view> choices,
                    std::string_view meaning) {
   KeyInfo key = other_key(name, "", meaning);

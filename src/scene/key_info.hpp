@@ -22,12 +22,14 @@ struct KeyInfo {
 };
 using KeyTable = std::span<const KeyInfo>;
 
-/// Entries for a key with a number, with a list of `length` numbers, with one of several texts, with any
-/// text, with true or false, and with a value that `expected` describes.
+/// Entries for a key with a number, with a list of `length` numbers, of one or more, with one of several
+/// texts, with any text, with true or false, and with a value that `expected` describes.
 KeyInfo number_key(std::string_view name, const Bounds& bounds, std::string_view unit,
                    std::string_view meaning);
 KeyInfo list_key(std::string_view name, std::size_t length, const Bounds& bounds, std::string_view unit,
                  std::string_view meaning);
+KeyInfo numbers_key(std::string_view name, const Bounds& bounds, std::string_view unit,
+                    std::string_view meaning);
 KeyInfo choice_key(std::string_view name, std::span<const std::string_view> choices,
                    std::string_view meaning);
 KeyInfo text_key(std::string_view name, std::string_view meaning);

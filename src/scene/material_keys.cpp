@@ -1,6 +1,6 @@
 #include <limits>
+#include <map>
 
-#include "materials/material_parameters.hpp"
 #include "scene/choices.hpp"
 #include "scene/scene_keys.hpp"
 
@@ -18,13 +18,30 @@ std::vector<KeyInfo> model_keys(std::initializer_list<KeyInfo> others) {
 }  // namespace
 
 KeyTable material() {
-  static const std::vector<KeyInfo> keys = model_keys<ElasticParameters>({
-      other_key("damage", "a table", "rate-dependent tensile damage; absent: none"),
-      other_key("drucker_prager", "a table", "plasticity under compression; absent: none"),
-      other_key("von_mises", "a table",
-                "plasticity with hardening and softening; absent: none; excludes `drucker_prager`"),
-      other_key("decohesion", "a table", "from localisation to separation; absent: none"),
-  });
+  static const std::vector<KeyInfo> keys = [] {
+    std::vector<KeyInfo> list = model_keys<ElasticParameters>({
+        other_key("damage", "a table", "rate-dependent tensile damage; absent: none"),
+        other_key("drucker_prager", "a table", "plasticity under compression; absent: none"),
+        other_key("von_mises", "a table",
+                  "plasticity with hardening and softening; absent: none; excludes `drucker_prager`"),
+        other_key("decohesion", "a table", "from localisation to separation; absent: none"),
+    });
+    for (const RegisteredLaw& law : registered_laws())
+      list.push_back(other_key(law.table, "a table", law.text + "; excludes the models above"));
+    return list;
+  }();
+  return keys;
+}
+
+KeyTable law(const RegisteredLaw& law) {
+  static std::map<std::string, std::vector<KeyInfo>> tables;
+  std::vector<KeyInfo>& keys = tables[law.table];
+  if (keys.empty())
+    for (const ParameterRow& row : law.parameters) {
+      KeyInfo key = row.is_list ? numbers_key(row.name, row.bounds, row.unit, row.description)
+                                : number_key(row.name, row.bounds, row.unit, row.description);
+      keys.push_back(row.fallback ? defaulted(std::move(key), *row.fallback) : required(std::move(key)));
+    }
   return keys;
 }
 

@@ -29,7 +29,7 @@ void require_range(const Scene& scene, std::size_t index, const Body& body) {
   double fastest = 0.0;
   for (std::size_t i = 0; i < p.size; ++i)
     fastest = std::max(fastest, std::hypot(p.velocity[0][i], p.velocity[1][i]));
-  const double density = body.material->parameters().elastic.density, wave = body.material->wave_speed();
+  const double density = body.material->density(), wave = body.material->wave_speed();
   const double speed = fastest > 0.0 ? fastest : wave;
   const double crossing = scene.cell / wave;
   const Quantity quantities[] = {

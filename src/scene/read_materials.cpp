@@ -118,6 +118,27 @@ void warn_of_wave_speed(const TableReader& material, const ElasticParameters& gi
                             slowest, fastest, meant));
 }
 
+/// The table of the law that the material names, if any.
+std::optional<LawParameters> read_law(const TableReader& material) {
+  std::optional<LawParameters> named;
+  for (const RegisteredLaw& law : registered_laws()) {
+    const auto table = material.table(law.table, keys::law(law));
+    if (!table) continue;
+    if (named)
+      material.report(law.table, fmt::format("found together with '{}', expected only one law in a material",
+                                             named->table));
+    named = LawParameters{law.table, {}};
+    for (const ParameterRow& row : law.parameters) {
+      std::vector<double>& value = named->values.emplace_back(1, row.fallback.value_or(0.0));
+      if (!row.is_list)
+        table->read(row.name, value.front());
+      else if (table->read(row.name, value) && value.empty())
+        table->fail(row.name, find_key(keys::law(law), row.name).expected);
+    }
+  }
+  return named;
+}
+
 MaterialParameters read_material(const TableReader& table, std::string name) {
   MaterialParameters material;
   material.name = std::move(name);
@@ -129,6 +150,12 @@ MaterialParameters read_material(const TableReader& table, std::string name) {
   if (table.has("drucker_prager") && table.has("von_mises"))
     table.report("von_mises",
                  "found together with 'drucker_prager', expected only one plasticity model in a material");
+  material.law = read_law(table);
+  if (material.law)
+    for (const std::string_view model : {"damage", "drucker_prager", "von_mises", "decohesion"})
+      if (table.has(model))
+        table.report(model, fmt::format("found together with '{}', expected no other model in the material",
+                                        material.law->table));
   return material;
 }
 

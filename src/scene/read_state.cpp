@@ -2,8 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <map>
+#include <memory>
 #include <span>
 
+#include "materials/registry.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/sections.hpp"
 #include "scene/toml_text.hpp"
@@ -11,92 +15,111 @@
 namespace vitrum::scene {
 namespace {
 
-double value(const PointState& s, Variable v) {
-  return s.*variable_members[static_cast<std::size_t>(v)];
-}
-std::string_view name(Variable v) {
-  return all_variables()[static_cast<std::size_t>(v)].name;
-}
+/// Values of columns by name; 0 where the file has none.
+using Values = std::map<std::string_view, double>;
+using Names = std::initializer_list<std::string_view>;
 
-/// Reports the first of `variables` that is not zero.
-bool require_zero(const TableReader& table, const PointState& s, std::span<const Variable> variables,
-                  std::string_view because) {
-  for (const Variable v : variables)
-    if (value(s, v) != 0.0) {
-      table.fail(name(v), fmt::format("0: {}", because));
+/// Reports the first of `names` that is not zero.
+bool require_zero(const TableReader& table, const Values& values, Names names, std::string_view because) {
+  for (const std::string_view name : names)
+    if (values.at(name) != 0.0) {
+      table.fail(name, fmt::format("0: {}", because));
       return false;
     }
   return true;
 }
 
 /// What a model that the material does not name would keep.
-bool check_models(const TableReader& table, const PointScene& point) {
-  using enum Variable;
-  static constexpr std::array damaging{crack_density, max_rate};
-  static constexpr std::array flowing{plastic_strain};
-  static constexpr std::array cohesive{decohesion, opening_n,        opening_t,        normal_r,
-                                       normal_z,   effective_length, cohesive_strength};
-  const MaterialParameters& m = point.material;
-  return (m.damage || require_zero(table, point.state, damaging, "the material has no damage")) &&
+bool check_models(const TableReader& table, const MaterialParameters& m, const Values& values) {
+  return (m.damage ||
+          require_zero(table, values, {"crack_density", "max_rate"}, "the material has no damage")) &&
          (m.von_mises || m.drucker_prager ||
-          require_zero(table, point.state, flowing, "the material has no yield surface")) &&
-         (m.decohesion || require_zero(table, point.state, cohesive, "the material has no decohesion"));
+          require_zero(table, values, {"plastic_strain"}, "the material has no yield surface")) &&
+         (m.decohesion || require_zero(table, values,
+                                       {"decohesion", "opening_n", "opening_t", "normal_r", "normal_z",
+                                        "effective_length", "cohesive_strength"},
+                                       "the material has no decohesion"));
 }
 
 /// What a plane keeps that is not there: a point is localised where it has an effective length.
-bool check_intact(const TableReader& table, const PointState& s) {
-  using enum Variable;
-  static constexpr std::array of_a_plane{decohesion, opening_n, opening_t,
-                                         normal_r,   normal_z,  cohesive_strength};
-  return require_zero(table, s, of_a_plane,
+bool check_intact(const TableReader& table, const Values& values) {
+  return require_zero(table, values,
+                      {"decohesion", "opening_n", "opening_t", "normal_r", "normal_z", "cohesive_strength"},
                       "the point is not localised (it would have an effective_length > 0)");
 }
 
-void check_plane(const TableReader& table, const PointScene& point) {
+void check_plane(const TableReader& table, const DecohesionParameters& parameters, const Values& values) {
   constexpr double rounding = 1e-6;  // of a plane that has turned with its particle
-  using enum Variable;
-  const PointState& s = point.state;
-  const double length = std::hypot(s.normal_r, s.normal_z);
-  const bool hoop = s.normal_r == 0.0 && s.normal_z == 0.0;
+  const double r = values.at("normal_r"), z = values.at("normal_z"), decohesion = values.at("decohesion");
+  const double length = std::hypot(r, z);
+  const bool hoop = r == 0.0 && z == 0.0;
   if (!hoop && !(std::abs(length - 1.0) <= rounding)) {
     table.report(table.has("normal_r") ? "normal_r" : "normal_z",
                  fmt::format("found a normal ({}, {}) of length {:.6g}, expected a unit vector",
-                             number_text(s.normal_r), number_text(s.normal_z), length));
-  } else if (hoop && !point.material.decohesion->search_all_planes) {
+                             number_text(r), number_text(z), length));
+  } else if (hoop && !parameters.search_all_planes) {
     table.report(
         "effective_length",
         "found a localised point without a normal (normal_r, normal_z), which is that of a hoop plane; "
         "expected a unit vector, or decohesion.plane = \"all\"");
-  } else if (s.decohesion < 1.0 && !(s.cohesive_strength > 0.0)) {
+  } else if (decohesion < 1.0 && !(values.at("cohesive_strength") > 0.0)) {
     table.report(
         "cohesive_strength",
         fmt::format("found {} on a plane that has not separated, expected the traction at its onset (> 0)",
-                    number_text(s.cohesive_strength)));
-  } else if (s.opening_n < -rounding * point.material.decohesion->opening) {
+                    number_text(values.at("cohesive_strength"))));
+  } else if (values.at("opening_n") < -rounding * parameters.opening) {
     table.fail("opening_n", "at least 0: faces do not penetrate");
-  } else if (hoop && s.opening_t != 0.0) {
+  } else if (hoop && values.at("opening_t") != 0.0) {
     table.fail("opening_t", "0: a hoop plane does not slide");
-  } else if (s.decohesion == 0.0) {
-    static constexpr std::array openings{opening_n, opening_t};
-    require_zero(table, s, openings, "decohesion is 0, and openings are what it brings");
+  } else if (decohesion == 0.0) {
+    require_zero(table, values, {"opening_n", "opening_t"},
+                 "decohesion is 0, and openings are what it brings");
   }
+}
+
+/// What the composite's models ask of their variables.
+void check_composite(const TableReader& table, const MaterialParameters& material, const Values& values) {
+  if (!check_models(table, material, values)) return;
+  if (values.at("effective_length") > 0.0)
+    check_plane(table, *material.decohesion, values);
+  else
+    check_intact(table, values);
+}
+
+/// What the law does not store.
+void check_law(const TableReader& table, const Material& material, const Values& values) {
+  for (const Component& column : all_columns())
+    if (!material.column(column.name) && column.name != dissipated_variable().name)
+      require_zero(table, values, {column.name}, "the material has no such variable");
 }
 
 }  // namespace
 
 void read_state(const TableReader& document, PointScene& point) {
   const auto table = document.table("state", keys::state());
-  if (!table) return;
   std::array<double, 4> e{};
-  if (table->read("elastic_strain", std::span<double>(e)))
-    point.state.elastic_strain = {e[0], e[1], e[2], e[3]};
-  for (const VariableInfo& v : all_variables())
-    table->read(v.name, point.state.*variable_members[static_cast<std::size_t>(v.variable)]);
-  if (!check_models(*table, point)) return;
-  if (is_localised(point.state))
-    check_plane(*table, point);
+  Values values;
+  if (table) {
+    table->read("elastic_strain", std::span<double>(e));
+    for (const Component& column : all_columns()) table->read(column.name, values[column.name]);
+  }
+  // Which variables there are, and where they start, is a matter of the material.
+  if (!document.diagnostics().empty()) {
+    if (table && !point.material.law) check_composite(*table, point.material, values);
+    return;
+  }
+  const std::shared_ptr<const Material> material = make_material(point.material, 1.0);
+  point.state = material->start({});
+  if (!table) return;
+  if (point.material.law)
+    check_law(*table, *material, values);
   else
-    check_intact(*table, point.state);
+    check_composite(*table, point.material, values);
+  point.state.elastic_strain = {e[0], e[1], e[2], e[3]};
+  for (std::size_t k = 0; k < material->columns().size(); ++k)
+    if (table->has(material->columns()[k].name))
+      value_of(*material, point.state, k) = values[material->columns()[k].name];
+  point.state.dissipated = values[dissipated_variable().name];
 }
 
 }  // namespace vitrum::scene

@@ -156,6 +156,10 @@ std::string scene_reference() {
   std::string page(introduction);
   for (const Section& section : scene_sections()) page += section_text(section);
   for (const Section& section : model_sections()) page += section_text(section);
+  for (const RegisteredLaw& law : registered_laws()) {
+    const std::string heading = fmt::format("[material.NAME.{}]", law.table), text = law.text + '.';
+    page += section_text({heading, text, keys::law(law)});
+  }
   for (const Section& section : point_sections()) page += section_text(section);
   return page;
 }

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "materials/material_parameters.hpp"
+#include "materials/law.hpp"
 
 namespace vitrum {
 

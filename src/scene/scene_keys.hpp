@@ -1,4 +1,5 @@
 #pragma once
+#include "materials/registry.hpp"
 #include "scene/key_info.hpp"
 #include "scene/scene.hpp"
 
@@ -38,6 +39,8 @@ KeyTable fixed_rate();
 KeyTable drucker_prager();
 KeyTable von_mises();
 KeyTable decohesion();
+/// [material.NAME.TABLE] of a registered law.
+KeyTable law(const RegisteredLaw& law);
 
 /// Names that `output.fields` admits.
 const std::vector<std::string>& output_fields();

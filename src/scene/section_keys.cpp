@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <limits>
 
+#include "materials/registry.hpp"
 #include "scene/choices.hpp"
 #include "scene/scene.hpp"
 #include "scene/scene_keys.hpp"
@@ -169,9 +171,9 @@ KeyTable state() {
   static const std::vector<KeyInfo> keys = [] {
     std::vector<KeyInfo> list{
         list_key("elastic_strain", 4, finite, "1", "elastic strain (rr, zz, tt, rz) or (xx, yy, zz, xy)")};
-    for (const VariableInfo& v : all_variables()) {
-      const bool of_unit_vector = v.bounds.lowest == -1.0;  // whose length rounding may leave above 1
-      list.push_back(number_key(v.name, of_unit_vector ? finite : v.bounds, v.unit, v.description));
+    for (const Component& c : all_columns()) {
+      const bool of_unit_vector = c.bounds.lowest == -1.0;  // whose length rounding may leave above 1
+      list.push_back(number_key(c.name, of_unit_vector ? finite : c.bounds, c.unit, c.text));
     }
     return list;
   }();
@@ -204,7 +206,8 @@ KeyTable path() {
 const std::vector<std::string>& output_fields() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list{"position", "velocity", "stress", "elastic_strain", "damage"};
-    for (const VariableInfo& variable : all_variables()) list.emplace_back(variable.name);
+    for (const Component& column : all_columns())
+      if (std::ranges::find(list, column.name) == list.end()) list.emplace_back(column.name);
     return list;
   }();
   return names;

@@ -22,7 +22,7 @@ double cost_of(ShapeFunctions shape) {
 /// The same of a material, relative to an elastic one: models take time in proportion to what they store.
 double cost_of(const Material& material) {
   constexpr double of_variable = 0.15;
-  return 1.0 + of_variable * static_cast<double>(material.variables().size());
+  return 1.0 + of_variable * static_cast<double>(material.columns().size());
 }
 
 /// What a step computes between two times that threads meet, in elastic particles with linear shape

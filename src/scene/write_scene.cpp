@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "materials/registry.hpp"
 #include "scene/choices.hpp"
 #include "scene/key_info.hpp"
 #include "scene/toml_text.hpp"
@@ -177,6 +178,17 @@ void write_material(TomlWriter& out, const MaterialParameters& material) {
     out.parameters(*material.decohesion);
     out.line("plane", name_of(plane_names, material.decohesion->search_all_planes));
   }
+  if (material.law) {
+    model(material.law->table);
+    const RegisteredLaw& law = *find_law(material.law->table);
+    for (std::size_t k = 0; k < law.parameters.size(); ++k) {
+      const std::vector<double>& value = material.law->values[k];
+      if (law.parameters[k].is_list)
+        out.line(law.parameters[k].name, std::span<const double>(value));
+      else
+        out.line(law.parameters[k].name, value.front());
+    }
+  }
 }
 
 }  // namespace
@@ -211,8 +223,9 @@ std::string point_toml(const PointScene& point) {
     return std::array<double, 4>{a.rr, a.zz, a.tt, a.rz};
   };
   out.line("elastic_strain", std::span<const double>(components(point.state.elastic_strain)));
-  for (const VariableInfo& v : all_variables())
-    out.line(v.name, point.state.*variable_members[static_cast<std::size_t>(v.variable)]);
+  const std::shared_ptr<const Material> material = make_material(point.material, point.size);
+  for (std::size_t k = 0; k < material->columns().size(); ++k)
+    out.line(material->columns()[k].name, value_of(*material, point.state, k));
   out.header("[path]");
   out.line("time", std::span<const double>(point.time));
   std::string rows;

@@ -23,7 +23,7 @@ const char* const method_names[] = {"closed form", "substep", "CVODE (BDF)", "CV
 
 struct Case {
   MaterialParameters material;
-  PointState start;
+  CompositeState start;
   SymmetricTensor strain;
 };
 
@@ -32,8 +32,8 @@ Case make_case(Mode mode) {
   MaterialParameters glass = fracturing_glass();
   glass.drucker_prager = glass_drucker_prager();
   const auto after = [](const MaterialParameters& p, const SymmetricTensor& strain, int increments) {
-    const auto material = make_material(p, cell);
-    PointState s = material->initial_state({});
+    const auto material = composite_of(p, cell);
+    CompositeState s = material->initial_state({});
     PointReport report;
     for (int i = 0; i < increments; ++i)
       material->respond(s, (1.0 / increments) * strain, duration, report), report.clear();
@@ -43,7 +43,7 @@ Case make_case(Mode mode) {
     case Mode::elastic:
       return {glass, after(glass, {-1e-5, -1e-5, -1e-5, 0.0}, 1), {1e-7, -1e-7, 0.0, 1e-7}};
     case Mode::damaging: {
-      PointState s = after(glass, {6e-4, 6e-5, 6e-5, 0.0}, 100);
+      CompositeState s = after(glass, {6e-4, 6e-5, 6e-5, 0.0}, 100);
       return {glass, s, {6e-6, 6e-7, 6e-7, 0.0}};
     }
     case Mode::flowing: {
@@ -54,13 +54,13 @@ Case make_case(Mode mode) {
       return {glass, after(glass, {-4e-3, 3e-3, 0.0, 0.0}, 10), {-1e-5, 8e-6, 0.0, 1e-5}};
     case Mode::opening: {
       const MaterialParameters p = cohesive_glass(5.0e-6);
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       return {p, at_onset(*material, 0.3, 20.0e6, 20.0e6 * normal_dyad(0.3)), 1e-5 * normal_dyad(0.3)};
     }
     case Mode::separated: {
       const MaterialParameters p = cohesive_glass(5.0e-6);
-      const auto material = make_material(p, cell);
-      PointState s = at_onset(*material, 0.3, 20.0e6, 20.0e6 * normal_dyad(0.3));
+      const auto material = composite_of(p, cell);
+      CompositeState s = at_onset(*material, 0.3, 20.0e6, 20.0e6 * normal_dyad(0.3));
       PointReport report;
       for (int i = 0; i < 20; ++i)
         material->respond(s, 1e-3 * normal_dyad(0.3), duration, report), report.clear();
@@ -88,7 +88,7 @@ std::unique_ptr<LocalIntegrator> make_method(Method method) {
 class Points {
  public:
   explicit Points(const Case& c)
-      : material(make_material(c.material, cell)), mass_(points, 1.0), spin_(points, 1e-6) {
+      : material(composite_of(c.material, cell)), mass_(points, 1.0), spin_(points, 1e-6) {
     const auto column = [&](std::vector<double>& v, double value) {
       v.assign(points, value);
       return v.data();
@@ -100,25 +100,26 @@ class Points {
       columns.strain_increment[k] = column(strain_[k], strain[k]);
       columns.elastic_strain[k] = column(end_[k], 0.0);
     }
-    for (const VariableInfo& v : material->variables()) {
-      const auto k = static_cast<std::size_t>(v.variable);
-      columns.start_variables[k] = column(start_variables_[k], c.start.*variable_members[k]);
-      columns.variables[k] = column(end_variables_[k], 0.0);
+    start_variables_.resize(material->columns().size()), end_variables_.resize(material->columns().size());
+    for (std::size_t k = 0; k < start_variables_.size(); ++k) {
+      columns.start_variables.push_back(
+          column(start_variables_[k], number(c.start, material->columns()[k].name)));
+      columns.variables.push_back(column(end_variables_[k], 0.0));
     }
     columns.mass = mass_.data(), columns.spin_increment = spin_.data();
   }
 
-  std::shared_ptr<const Material> material;
+  std::shared_ptr<const CompositeMaterial> material;
   ParticleColumns columns;
 
  private:
   std::vector<double> start_[4], strain_[4], end_[4], mass_, spin_;
-  std::vector<double> start_variables_[variable_count], end_variables_[variable_count];
+  std::vector<std::vector<double>> start_variables_, end_variables_;
 };
 
 /// Whether the increment did what its mode says: otherwise the figure would be of something else.
 bool as_intended(Mode mode, const BatchReport& report, const Points& p) {
-  const auto lambda = p.columns.variables[static_cast<std::size_t>(Variable::decohesion)];
+  const std::optional<std::size_t> lambda = p.material->door().column("decohesion");
   switch (mode) {
     case Mode::elastic:
       return report.dissipated.total() == 0.0 && report.events.empty();
@@ -128,9 +129,9 @@ bool as_intended(Mode mode, const BatchReport& report, const Points& p) {
     case Mode::crushed:
       return report.dissipated.plastic > 0.0 && report.dissipated.fracture == 0.0;
     case Mode::opening:
-      return report.dissipated.fracture > 0.0 && lambda[0] < 1.0;
+      return report.dissipated.fracture > 0.0 && p.columns.variables[*lambda][0] < 1.0;
     case Mode::separated:
-      return lambda[0] >= 1.0;
+      return p.columns.variables[*lambda][0] >= 1.0;
   }
   return false;
 }
@@ -143,7 +144,7 @@ void response(benchmark::State& state) {
   BatchReport report;
   for ([[maybe_unused]] auto _ : state) {
     report.clear();
-    local->integrate(*p.material, p.columns, 0, points, duration, report);
+    local->integrate(p.material->door(), p.columns, 0, points, duration, report);
     benchmark::ClobberMemory();
   }
   if (report.failed)

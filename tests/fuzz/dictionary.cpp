@@ -101,6 +101,7 @@ int main() {
                                 keys::von_mises(),
                                 keys::decohesion()})
     collect(table, words);
+  for (const vitrum::RegisteredLaw& law : vitrum::registered_laws()) collect(keys::law(law), words);
   fmt::print("# Printed by fuzz_dictionary from the key tables; do not edit.\n");
   for (const std::string& word : words) fmt::print("\"{}\"\n", escaped(word));
 }

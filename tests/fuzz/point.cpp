@@ -35,9 +35,9 @@ void drive(const PointScene& point) {
                    {[&](double time, const SymmetricTensor&, const PointState& state) {
                       demand(std::isfinite(time) && std::isfinite(trace(state.stress) + state.stress.rz),
                              "rows are finite");
-                      for (const VariableInfo& v : material->variables())
-                        demand(!std::isnan(state.*variable_members[static_cast<std::size_t>(v.variable)]),
-                               std::string("variables are numbers: ") + std::string(v.name));
+                      for (std::size_t k = 0; k < material->columns().size(); ++k)
+                        demand(!std::isnan(value_of(*material, state, k)),
+                               "variables are numbers: " + material->columns()[k].name);
                     },
                     [](EventKind, double time) { demand(std::isfinite(time), "events have a time"); }});
 }

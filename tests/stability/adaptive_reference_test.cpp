@@ -100,9 +100,7 @@ TEST_CASE("Slow loading: a plate bent to failure breaks alike under implicit and
   implicit.advance(duration), steps.advance(duration);
   const auto localised = [](const MpmRun& run) {
     int count = 0;
-    for (const double l :
-         run.system.bodies[0].particles.variables[static_cast<std::size_t>(Variable::effective_length)])
-      count += l > 0.0 ? 1 : 0;
+    for (const double l : run.system.bodies[0].column("effective_length")) count += l > 0.0 ? 1 : 0;
     return count;
   };
   const double difference = stress_difference(steps, implicit);

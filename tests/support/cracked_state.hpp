@@ -31,11 +31,11 @@ inline double tangential_traction(const SymmetricTensor& stress, double angle) {
 }
 
 /// A point at the onset of decohesion on the plane at `angle`: strength `strength` (Pa), stress as given.
-inline PointState at_onset(const Material& material, double angle, double strength,
-                           const SymmetricTensor& stress, double length = cell) {
-  PointState s = material.initial_state(stress);
-  s.normal_r = std::cos(angle);
-  s.normal_z = std::sin(angle);
+inline CompositeState at_onset(const CompositeMaterial& material, double angle, double strength,
+                               const SymmetricTensor& stress, double length = cell) {
+  CompositeState s = material.initial_state(stress);
+  s.normal.r = std::cos(angle);
+  s.normal.z = std::sin(angle);
   s.effective_length = length;
   s.cohesive_strength = strength;
   return s;

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "materials/material.hpp"
+#include "support/composite_material.hpp"
 
 namespace vitrum::test {
 

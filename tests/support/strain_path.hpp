@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "materials/material.hpp"
+#include "support/composite_material.hpp"
 #include "support/random_states.hpp"
 
 namespace vitrum::test {
@@ -23,7 +23,7 @@ struct TimedEvent {
 /// What following a path left behind. `work` is the integral of stress : d strain, J/m^3, by the rule of
 /// `drive`.
 struct Driven {
-  PointState state;
+  CompositeState state;
   std::vector<TimedEvent> events;
   Dissipation dissipation;
   double work = 0.0;
@@ -43,8 +43,8 @@ struct Driven {
 
 /// Follows `path` with `steps` equal increments a segment; the trapezoidal rule gives the work.
 /// integrator: null for the closed form. A failed increment ends the path; `cause` tells why.
-inline Driven drive(const Material& material, const std::vector<Segment>& path, int steps,
-                    PointState start = {}, PointIntegrator* integrator = nullptr) {
+inline Driven drive(const CompositeMaterial& material, const std::vector<Segment>& path, int steps,
+                    CompositeState start = {}, PointIntegrator* integrator = nullptr) {
   Driven d;
   d.state = start;
   double time = 0.0;
@@ -57,7 +57,7 @@ inline Driven drive(const Material& material, const std::vector<Segment>& path, 
       if (integrator == nullptr)
         material.respond(d.state, strain, duration, report);
       else
-        integrator->integrate(material, d.state, strain, duration, report);
+        material.integrate(*integrator, d.state, strain, duration, report);
       if (report.failed()) {
         d.cause = report.cause;
         return d;
@@ -77,9 +77,9 @@ inline Driven drive(const Material& material, const std::vector<Segment>& path, 
 inline bool is_finite(const SymmetricTensor& a) {
   return std::isfinite(a.rr) && std::isfinite(a.zz) && std::isfinite(a.tt) && std::isfinite(a.rz);
 }
-inline bool is_finite(const PointState& s) {
+inline bool is_finite(const CompositeState& s) {
   bool finite = is_finite(s.elastic_strain) && is_finite(s.stress);
-  for (const auto member : variable_members) finite = finite && std::isfinite(s.*member);
+  for (const std::string_view name : number_names) finite = finite && std::isfinite(number(s, name));
   return finite;
 }
 inline double distance(const SymmetricTensor& a, const SymmetricTensor& b) {

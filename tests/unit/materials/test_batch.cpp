@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "catch.hpp"
@@ -14,21 +15,23 @@ namespace {
 struct Columns {
   using Tensors = std::array<std::vector<double>, 4>;
   Tensors elastic_strain, stress, increment;
-  std::array<std::vector<double>, variable_count> variables;
+  std::vector<std::vector<double>> variables;
+  std::vector<std::string> names;
   std::vector<double> spin, mass;
   ParticleColumns pointers;
 
-  Columns(const Material& material, std::size_t count) : spin(count, 0.0), mass(count, 1.0) {
+  Columns(const CompositeMaterial& material, std::size_t count) : spin(count, 0.0), mass(count, 1.0) {
     for (std::size_t c = 0; c < 4; ++c) {
       elastic_strain[c].assign(count, 0.0), stress[c].assign(count, 0.0), increment[c].assign(count, 0.0);
       pointers.start_strain[c] = pointers.elastic_strain[c] = elastic_strain[c].data();
       pointers.stress[c] = stress[c].data();
       pointers.strain_increment[c] = increment[c].data();
     }
-    for (const VariableInfo& info : material.variables()) {
-      const auto v = static_cast<std::size_t>(info.variable);
-      variables[v].assign(count, 0.0);
-      pointers.start_variables[v] = pointers.variables[v] = variables[v].data();
+    variables.assign(material.columns().size(), std::vector<double>(count, 0.0));
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      names.push_back(material.columns()[k].name);
+      pointers.start_variables.push_back(variables[k].data());
+      pointers.variables.push_back(variables[k].data());
     }
     pointers.spin_increment = spin.data();
     pointers.mass = mass.data();
@@ -41,18 +44,19 @@ struct Columns {
     return {stress[0][i], stress[1][i], stress[2][i], stress[3][i]};
   }
   /// Stress that the material finds for the state as it stands.
-  Tensors stress_of_state(const Material& material) const {
+  Tensors stress_of_state(const CompositeMaterial& material) const {
     Tensors found;
     std::array<double*, 4> to{};
     for (std::size_t c = 0; c < 4; ++c) found[c].resize(mass.size()), to[c] = found[c].data();
-    const auto& density = variables[static_cast<std::size_t>(Variable::crack_density)];
-    material.stress(pointers.start_strain, density.empty() ? nullptr : density.data(), mass.size(), to);
+    material.door().stress(pointers.start_strain, pointers.start_variables, mass.size(), to);
     return found;
   }
   SymmetricTensor strain_of(std::size_t i) const {
     return {elastic_strain[0][i], elastic_strain[1][i], elastic_strain[2][i], elastic_strain[3][i]};
   }
-  double of(std::size_t i, Variable v) const { return variables[static_cast<std::size_t>(v)][i]; }
+  double of(std::size_t i, std::string_view name) const {
+    return variables[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())][i];
+  }
 };
 
 }  // namespace
@@ -61,9 +65,9 @@ TEST_CASE("the batch response without spin is the response of its points", "[mat
   constexpr std::size_t count = 40;
   for (const NamedMaterial& named : all_compositions()) {
     CAPTURE(named.name);
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     Columns columns(*material, count);
-    std::vector<PointState> points(count);
+    std::vector<CompositeState> points(count);
     Random random(120);
     for (double& m : columns.mass) m = random.uniform(0.5, 2.0);
     Dissipation expected;
@@ -96,9 +100,8 @@ TEST_CASE("the batch response without spin is the response of its points", "[mat
         const SymmetricTensor of_state{stress[0][i], stress[1][i], stress[2][i], stress[3][i]};
         REQUIRE(distance(of_state, points[i].stress) <= 1e-12 * norm(points[i].stress));
         REQUIRE(columns.strain_of(i) == points[i].elastic_strain);
-        for (const VariableInfo& info : material->variables())
-          REQUIRE(columns.of(i, info.variable) ==
-                  points[i].*variable_members[static_cast<std::size_t>(info.variable)]);
+        for (const Component& c : material->columns())
+          REQUIRE(columns.of(i, c.name) == number(points[i], c.name));
       }
       REQUIRE(report.elastic == Approx(stored).epsilon(1e-12));
       REQUIRE(report.events.size() == events.size());
@@ -118,7 +121,7 @@ TEST_CASE("the batch response without spin is the response of its points", "[mat
 TEST_CASE(
     "the stored energy of a batch is the work on the reference volume, at strains of any size and order",
     "[material][batch][energy]") {
-  const auto glass = make_material(bare_glass(), cell);
+  const auto glass = composite_of(bare_glass(), cell);
   Columns columns(*glass, 1);
   columns.mass[0] = 2500.0;  // 1 m^3
   // A path through strains of order one whose volume and shape change together: the work V0 sigma : de is
@@ -147,7 +150,7 @@ TEST_CASE("a spin turns stress, strain and normal and leaves the rest", "[materi
   int turned_planes = 0;
   for (const NamedMaterial& named : all_compositions()) {
     CAPTURE(named.name);
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     Columns still(*material, 1), turning(*material, 1);
     BatchReport a, b;
     double angle = 0.0;
@@ -159,7 +162,7 @@ TEST_CASE("a spin turns stress, strain and normal and leaves the rest", "[materi
           step < 20 ? SymmetricTensor{4e-4, 0.0, 1e-4, 2e-4} : random.tensor(3e-4) + 5e-5 * identity();
       const Rotation turned{std::cos(angle), std::sin(angle)};
       // The effective length is that of the plane in the grid at onset: keep the frames aligned until then.
-      const bool localised = named.parameters.decohesion && still.of(0, Variable::effective_length) > 0.0;
+      const bool localised = named.parameters.decohesion && still.of(0, "effective_length") > 0.0;
       const bool may_turn = !named.parameters.decohesion || localised;
       const double spin = may_turn ? random.uniform(-0.5, 0.5) : 0.0;
       still.set_increment(0, e);
@@ -171,17 +174,16 @@ TEST_CASE("a spin turns stress, strain and normal and leaves the rest", "[materi
       const Rotation now{std::cos(angle), std::sin(angle)};
       const double scale = norm(still.stress_of(0)) + 1e3;
       REQUIRE(distance(rotate(still.stress_of(0), now), turning.stress_of(0)) < 1e-8 * scale);
-      for (const VariableInfo& info : material->variables()) {
-        const Variable v = info.variable;
-        if (v == Variable::normal_r || v == Variable::normal_z) continue;
-        CAPTURE(std::string(info.name));
-        REQUIRE(turning.of(0, v) == Approx(still.of(0, v)).epsilon(1e-8).margin(1e-9 * info.scale));
+      for (const Component& c : material->columns()) {
+        if (c.name == "normal_r" || c.name == "normal_z") continue;
+        CAPTURE(c.name);
+        REQUIRE(turning.of(0, c.name) == Approx(still.of(0, c.name)).epsilon(1e-8).margin(1e-9 * c.scale));
       }
       if (localised) {
         ++turned_planes;
-        const double r = still.of(0, Variable::normal_r), z = still.of(0, Variable::normal_z);
-        REQUIRE(turning.of(0, Variable::normal_r) == Approx(now.cosine * r - now.sine * z).margin(1e-12));
-        REQUIRE(turning.of(0, Variable::normal_z) == Approx(now.sine * r + now.cosine * z).margin(1e-12));
+        const double r = still.of(0, "normal_r"), z = still.of(0, "normal_z");
+        REQUIRE(turning.of(0, "normal_r") == Approx(now.cosine * r - now.sine * z).margin(1e-12));
+        REQUIRE(turning.of(0, "normal_z") == Approx(now.sine * r + now.cosine * z).margin(1e-12));
       }
     }
     REQUIRE(a.elastic == Approx(b.elastic).epsilon(1e-8));

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
-#include "materials/tangent.hpp"
+#include "support/continuum_tangent.hpp"
 #include "support/material_samples.hpp"
 #include "support/random_states.hpp"
 #include "support/strain_path.hpp"
@@ -11,14 +11,11 @@ using namespace vitrum::test;
 
 namespace {
 
-Eigen::Vector4d vector(const SymmetricTensor& a) {
-  return {a.rr, a.zz, a.tt, a.rz};
-}
 Tangent matrix(const TangentEntries& entries) {
   return Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(entries.data());
 }
-SymmetricTensor stress_after(const Material& material, PointState s, const SymmetricTensor& strain,
-                             double duration) {
+SymmetricTensor stress_after(const CompositeMaterial& material, CompositeState s,
+                             const SymmetricTensor& strain, double duration) {
   PointReport report;
   material.respond(s, strain, duration, report);
   return s.stress;
@@ -29,11 +26,11 @@ SymmetricTensor stress_after(const Material& material, PointState s, const Symme
 TEST_CASE("consistent tangent of an elastic increment is Hooke's law, symmetric", "[material][tangent]") {
   Random random(60);
   for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     const Tangent hooke = elastic_tangent(elastic_moduli(named.parameters.elastic));
     for (int i = 0; i < 50; ++i) {
       const SymmetricTensor strain = random.tensor(1e-7);
-      const Tangent T = matrix(material->tangent(PointState{}, strain, 1e-3));
+      const Tangent T = matrix(material->tangent(CompositeState{}, strain, 1e-3));
       CAPTURE(named.name);
       // Damage of such strains is of the order of their sixth power.
       REQUIRE((T - hooke).norm() < 1e-7 * hooke.norm());
@@ -45,7 +42,7 @@ TEST_CASE("consistent tangent of an elastic increment is Hooke's law, symmetric"
 TEST_CASE("consistent tangent of damage at a fixed rate is eq. 9", "[material][tangent][damage]") {
   MaterialParameters p = damaging_glass();
   p.damage->fixed_rate = 1.0e3;
-  const auto glass = make_material(p, cell);
+  const auto glass = composite_of(p, cell);
   const DamageLaw law(*p.damage, p.elastic);
   Random random(61);
   int compared = 0;
@@ -55,7 +52,7 @@ TEST_CASE("consistent tangent of damage at a fixed rate is eq. 9", "[material][t
     const double x = random.uniform(0.01, 0.9);
     e *= 3.0 * law.mean_strain_at(x * crack_density_limit, law.coefficient(1.0e3)) / trace(e);
     const Tangent exact = damage_tangent(law, x, e);
-    const Tangent T = matrix(glass->tangent(PointState{}, e, 1e-6));
+    const Tangent T = matrix(glass->tangent(CompositeState{}, e, 1e-6));
     REQUIRE((T - exact).norm() < 1e-7 * exact.norm());
     ++compared;
   }
@@ -66,7 +63,7 @@ TEST_CASE("consistent tangent against differences of the response in random dire
           "[material][tangent]") {
   Random random(62);
   for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     int agree = 0;
     constexpr int cases = 300;
     for (int i = 0; i < cases; ++i) {
@@ -91,7 +88,7 @@ TEST_CASE("consistent tangent against differences of the response in random dire
 TEST_CASE("consistent tangent is finite and bounded everywhere", "[material][tangent][extreme]") {
   Random random(63);
   for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     // Steepest is damage just before its cap, and softening just before it turns into a snap-back: 12 found.
     const double bound = 30.0 * elastic_moduli(named.parameters.elastic).p_wave();
     for (int i = 0; i < 500; ++i) {

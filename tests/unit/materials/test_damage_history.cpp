@@ -19,7 +19,7 @@ double crack_density_of(double strain, double rate) {
 }  // namespace
 
 TEST_CASE("crack density follows eq. 7 at the running maximum of the rate", "[material][damage]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   const Driven slow = drive(*glass, {stretch(1.0e-4, 1.0e3)}, 1);
   CHECK(slow.state.max_rate == Approx(1.0e3).epsilon(1e-14));
   CHECK(slow.state.crack_density == Approx(crack_density_of(1.0e-4, 1.0e3)).epsilon(1e-13));
@@ -52,17 +52,17 @@ TEST_CASE("crack density follows eq. 7 at the running maximum of the rate", "[ma
 TEST_CASE("rate floor and fixed rate", "[material][damage]") {
   MaterialParameters p = damaging_glass();
   p.damage->rate_floor = 50.0;
-  const Driven creeping = drive(*make_material(p, cell), {stretch(0.3e-4, 1.0e-3)}, 2);
+  const Driven creeping = drive(*composite_of(p, cell), {stretch(0.3e-4, 1.0e-3)}, 2);
   CHECK(creeping.state.crack_density == Approx(crack_density_of(0.3e-4, 50.0)).epsilon(1e-12));
   p.damage->fixed_rate = 2.0e3;
   for (const double rate : {1.0, 1.0e5}) {
-    const Driven fixed = drive(*make_material(p, cell), {stretch(1.0e-4, rate)}, 2);
+    const Driven fixed = drive(*composite_of(p, cell), {stretch(1.0e-4, rate)}, 2);
     CHECK(fixed.state.crack_density == Approx(crack_density_of(1.0e-4, 2.0e3)).epsilon(1e-12));
   }
 }
 
 TEST_CASE("unloading is secant with the crack density frozen", "[material][damage]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     SymmetricTensor e = random.direction();
@@ -82,7 +82,7 @@ TEST_CASE("unloading is secant with the crack density frozen", "[material][damag
 }
 
 TEST_CASE("closed cracks carry pressure but less shear", "[material][damage]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   const SymmetricTensor e{1.0e-3, 0.3e-3, -0.1e-3, 0.2e-3};
   const Driven loaded = drive(*glass, {{e, trace(e) / 3.0e3}}, 1);
   const SymmetricTensor compressed{-2.0e-4, -0.5e-4, 0.4e-4, 0.1e-4};
@@ -95,7 +95,7 @@ TEST_CASE("closed cracks carry pressure but less shear", "[material][damage]") {
   SECTION("the stress is continuous where the mean strain changes sign") {
     const SymmetricTensor shear{1.0e-4, -0.6e-4, -0.4e-4, 0.3e-4};
     for (const double side : {-1e-14, 1e-14}) {
-      PointState s = loaded.state;
+      CompositeState s = loaded.state;
       s.elastic_strain = shear + side * identity();
       const SymmetricTensor stress = glass->secant_moduli(s).stress(s.elastic_strain);
       CHECK(distance(stress, 2.0 * damaged.shear * shear) < 1e-13 * 3.0 * 48.0e9 * 10.0);
@@ -104,7 +104,7 @@ TEST_CASE("closed cracks carry pressure but less shear", "[material][damage]") {
 }
 
 TEST_CASE("damage is frozen after localisation", "[material][damage][decohesion]") {
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   const Driven at = drive(*glass, {stretch(1.48e-4 * 10.0, 1.0e6)}, 1);  // 1.471e-4 at 1 /s
   REQUIRE_FALSE(is_localised(at.state));
   const Driven past = drive(*glass, {stretch(3.0e-2, 1.0e6)}, 1);
@@ -120,8 +120,8 @@ TEST_CASE("work = stored energy + dissipation of growing damage", "[material][da
   MaterialParameters of_metal = damaging_glass(), of_sand = damaging_glass();
   of_metal.von_mises = VonMisesParameters{1e12, 1e12, 0.0, 0.0};
   of_sand.drucker_prager = DruckerPragerParameters{1e12, 1.8, false};
-  const auto glass = make_material(GENERATE_REF(damaging_glass(), of_metal, of_sand),
-                                   cell);  // yield surfaces that nothing reaches
+  const auto glass = composite_of(GENERATE_REF(damaging_glass(), of_metal, of_sand),
+                                  cell);  // yield surfaces that nothing reaches
   Random random(4);
   for (int i = 0; i < 20; ++i) {
     std::vector<Segment> path;
@@ -148,7 +148,7 @@ TEST_CASE("damage that a first load has paid for is not booked again by a second
   for (const double yield : {1e12, 40.0e6}) {
     MaterialParameters p = damaging_glass();
     p.von_mises = VonMisesParameters{yield, yield, 0.0, 0.0};
-    const auto material = make_material(p, cell);
+    const auto material = composite_of(p, cell);
     const Driven fine = drive(*material, path, 4000);
     const bool flows = fine.dissipation.plastic > 0.0;
     CHECK(flows == (yield < 1e12));
@@ -161,10 +161,10 @@ TEST_CASE("damage that a first load has paid for is not booked again by a second
 }
 
 TEST_CASE("an initial tension is damaged at once, and the energy is booked", "[material][damage][energy]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   for (const double stress : {3.0e6, 5.0e6, 50.0e6}) {
-    const PointState start = glass->initial_state(stress * identity());
-    PointState s = start;
+    const CompositeState start = glass->initial_state(stress * identity());
+    CompositeState s = start;
     PointReport report;
     glass->judge(s, report);
     CAPTURE(stress);

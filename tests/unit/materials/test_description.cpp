@@ -2,7 +2,7 @@
 #include <string>
 
 #include "catch.hpp"
-#include "materials/material.hpp"
+#include "materials/registry.hpp"
 
 using namespace vitrum;
 
@@ -35,21 +35,30 @@ TEST_CASE("every parameter has a name, a unit, a description and bounds around i
   check_parameters<DecohesionParameters>();
 }
 
-TEST_CASE("every internal variable is described in the order of the enumeration", "[material][description]") {
-  const auto all = all_variables();
-  REQUIRE(all.size() == variable_count);
+TEST_CASE("every column is described, and named once", "[material][description]") {
   std::set<std::string> names;
-  const PointState initial;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    CAPTURE(std::string(all[i].name));
-    CHECK(static_cast<std::size_t>(all[i].variable) == i);
-    CHECK_FALSE(all[i].name.empty());
-    CHECK_FALSE(all[i].unit.empty());
-    CHECK_FALSE(all[i].description.empty());
-    CHECK(all[i].scale > 0.0);
-    CHECK(all[i].bounds.contain(initial.*variable_members[i]));
-    CHECK(names.insert(std::string(all[i].name)).second);
+  for (const Component& column : all_columns()) {
+    CAPTURE(column.name);
+    CHECK_FALSE(column.name.empty());
+    CHECK_FALSE(column.unit.empty());
+    CHECK_FALSE(column.text.empty());
+    CHECK(column.scale > 0.0);
+    CHECK(column.bounds.contain(column.initial));
+    CHECK(names.insert(column.name).second);
   }
+}
+
+TEST_CASE("components of a vector and of a tensor have names and signs of their own",
+          "[material][description]") {
+  const std::vector<Variable> variables{
+      {.name = "a", .unit = "1", .text = "a"},
+      {.name = "v", .unit = "1", .text = "v", .kind = Kind::vector},
+      {.name = "t", .unit = "1", .text = "t", .kind = Kind::symmetric, .parity = Parity::odd},
+      {.name = "b", .unit = "1", .text = "b", .parity = Parity::odd}};
+  std::string names, signs;
+  for (const Component& c : components_of(variables)) names += c.name + ' ', signs += c.flips ? '-' : '+';
+  CHECK(names == "a v_r v_z t_rr t_zz t_tt t_rz b ");
+  CHECK(signs == "+-+---+-");
 }
 
 TEST_CASE("open and closed ends of bounds", "[material][description]") {

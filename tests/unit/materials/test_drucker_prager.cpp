@@ -33,12 +33,12 @@ TEST_CASE("Drucker-Prager returns to the surface to 1e-12 and obeys its flow rul
           "[material][drucker_prager]") {
   Random random(40);
   for (const bool associated : {false, true}) {
-    const auto glass = make_material(crushable_glass(associated), cell);
+    const auto glass = composite_of(crushable_glass(associated), cell);
     int flowed = 0;
     for (int i = 0; i < 5000; ++i) {
       const SymmetricTensor strain = random.uniform(1e-3, 1e-2) * random.deviatoric_direction() -
                                      random.uniform(1e-6, 1e-3) * identity();
-      PointState s;
+      CompositeState s;
       PointReport report;
       glass->respond(s, strain, 1e-7, report);
       REQUIRE(report.dissipation.plastic >= 0.0);
@@ -68,7 +68,7 @@ TEST_CASE("Drucker-Prager returns to the surface to 1e-12 and obeys its flow rul
 TEST_CASE("proportional deviators under pressure are exact in one increment", "[material][drucker_prager]") {
   Random random(41);
   for (const bool associated : {false, true}) {
-    const auto glass = make_material(crushable_glass(associated), cell);
+    const auto glass = composite_of(crushable_glass(associated), cell);
     for (int i = 0; i < 100; ++i) {
       const SymmetricTensor strain = random.uniform(5e-3, 1e-2) * random.deviatoric_direction() -
                                      random.uniform(1e-4, 1e-3) * identity();
@@ -83,13 +83,13 @@ TEST_CASE("proportional deviators under pressure are exact in one increment", "[
 }
 
 TEST_CASE("uniaxial-strain compression never yields", "[material][drucker_prager]") {
-  const auto glass = make_material(crushable_glass(false), cell);
+  const auto glass = composite_of(crushable_glass(false), cell);
   for (const double strain : {-1e-4, -1e-2, -0.5})
     CHECK(drive(*glass, {{{0.0, strain, 0.0, 0.0}, 1e-6}}, 3).state.plastic_strain == 0.0);
 }
 
 TEST_CASE("there is no plastic flow under tension", "[material][drucker_prager]") {
-  const auto glass = make_material(crushable_glass(false), cell);
+  const auto glass = composite_of(crushable_glass(false), cell);
   const SymmetricTensor shear{0.01, -0.01, 0.0, 0.0};
   const Driven stretched = drive(*glass, {{1e-5 * identity(), 1e-6}, {shear, 1e-6}}, 3);
   REQUIRE(effective_stress(stretched.state.stress) > 10.0 * yield);
@@ -122,7 +122,7 @@ TEST_CASE("there is no plastic flow under tension", "[material][drucker_prager]"
 
 TEST_CASE("associated flow dilates, isochoric flow does not", "[material][drucker_prager]") {
   const SymmetricTensor strain{5e-3, -6e-3, 0.0, 2e-3};
-  const auto dilating = make_material(crushable_glass(true), cell);
+  const auto dilating = composite_of(crushable_glass(true), cell);
   const Driven d = drive(*dilating, {{strain, 1e-6}}, 1);
   CHECK(trace(strain) - trace(d.state.elastic_strain) > 1e-4);
 }
@@ -130,7 +130,7 @@ TEST_CASE("associated flow dilates, isochoric flow does not", "[material][drucke
 TEST_CASE("work = stored energy + dissipation in Drucker-Prager flow", "[material][drucker_prager]") {
   Random random(42);
   for (const bool associated : {false, true}) {
-    const auto glass = make_material(crushable_glass(associated), cell);
+    const auto glass = composite_of(crushable_glass(associated), cell);
     for (int i = 0; i < 10; ++i) {
       const std::vector<Segment> path{{random.tensor(1e-3) - 2e-3 * identity(), 1e-6},
                                       {random.tensor(4e-3), 1e-6},

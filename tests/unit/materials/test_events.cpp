@@ -6,7 +6,7 @@ using namespace vitrum;
 using namespace vitrum::test;
 
 TEST_CASE("damage begins where the mean strain turns positive", "[material][damage][events]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   for (const int steps : {1, 3, 1000}) {
     const Driven d = drive(*glass, {{-1e-4 * identity(), 1.0}, {4e-4 * identity(), 1e-6}}, steps);
     CAPTURE(steps);
@@ -18,8 +18,8 @@ TEST_CASE("damage begins where the mean strain turns positive", "[material][dama
 }
 
 TEST_CASE("the life of a glass point in one increment, in order", "[material][events]") {
-  const auto glass = make_material(fracturing_glass(), cell);
-  PointState s;
+  const auto glass = composite_of(fracturing_glass(), cell);
+  CompositeState s;
   PointReport report;
   glass->respond(s, {0.02, 0.0, 0.0, 0.0}, 1e-5, report);
   REQUIRE(report.event_count == 3);
@@ -29,7 +29,8 @@ TEST_CASE("the life of a glass point in one increment, in order", "[material][ev
   // Oracles: eps_1 = 1.471237e-4 R^(1/3), then u0/L_e - tau_np/M more.
   const double scale = std::cbrt(0.02 / 3.0 / 1e-5);
   CHECK(report.events[1].fraction == Approx(1.471237e-4 * scale / 0.02).epsilon(1e-6));
-  PointState stretched = s;  // (fully open, the point has no strain: whether cracks are closed is rounding)
+  CompositeState stretched =
+      s;  // (fully open, the point has no strain: whether cracks are closed is rounding)
   stretched.elastic_strain = 1e-6 * identity();
   const Moduli damaged = glass->secant_moduli(stretched);
   const double softening = 5.0e-6 / cell - 10.808642e6 * scale / damaged.p_wave();

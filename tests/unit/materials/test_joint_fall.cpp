@@ -11,7 +11,7 @@ namespace {
 
 /// Steel on its softening branch whose plane has softened, too: stress on the yield surface and traction at
 /// the strength.
-PointState on_both_surfaces(const Material& steel, Random& random) {
+CompositeState on_both_surfaces(const CompositeMaterial& steel, Random& random) {
   const VonMisesLaw law(*steel.parameters().von_mises);
   const double plastic = random.uniform(1.01 * law.peak_strain(), 0.9 * law.floor_strain());
   const double radius = law.radius(plastic), mean = random.uniform(0.0, 6.0) * radius;
@@ -22,7 +22,7 @@ PointState on_both_surfaces(const Material& steel, Random& random) {
   const double traction =
       plane.effective_traction(normal_traction(stress, angle), tangential_traction(stress, angle));
   const double decohesion = random.uniform(0.05, 0.95);
-  PointState s = at_onset(steel, angle, traction / (1.0 - decohesion), stress);
+  CompositeState s = at_onset(steel, angle, traction / (1.0 - decohesion), stress);
   s.decohesion = decohesion, s.plastic_strain = plastic;
   return s;
 }
@@ -36,27 +36,28 @@ TEST_CASE("where flow and decohesion drive each other the point falls and loses 
   for (const double opening : {1e-6, 5e-6, 1e-4}) {
     MaterialParameters parameters = fracturing_steel();
     parameters.decohesion->opening = opening;
-    const auto steel = make_material(parameters, cell);
+    const auto steel = composite_of(parameters, cell);
     const VonMisesLaw law(*parameters.von_mises);
     const DecohesionLaw plane_law(*parameters.decohesion);
     for (int n = 0; n < 300; ++n) {
       CAPTURE(opening, n);
-      const PointState start = on_both_surfaces(*steel, random);
+      const CompositeState start = on_both_surfaces(*steel, random);
       const StrainPath path{1e-3 * random.direction(), 1e-6, 1e-6};
       EvolutionMode mode;
       mode.tension = trace(start.elastic_strain) > 0.0;
       mode.flowing = true, mode.plane = EvolutionMode::Plane::decohering;
-      mode.pulled = normal_traction(start.stress, std::atan2(start.normal_z, start.normal_r)) > 0.0;
+      mode.pulled = normal_traction(start.stress, std::atan2(start.normal.z, start.normal.r)) > 0.0;
       mode.hardening_modulus = law.modulus(start.plastic_strain), mode.branch_end = law.floor_strain();
       EvolutionMode without_flow = mode;
       without_flow.flowing = false;
-      if (!(steel->rates(without_flow, start, path).fraction > 0.0)) continue;  // the plane snaps back alone
+      if (!(steel->modes().rates(without_flow, start, path).fraction > 0.0))
+        continue;  // the plane snaps back alone
 
-      PointState s = start;
+      CompositeState s = start;
       PointReport report;
-      steel->leave(mode, Root::snap_back, s, path, 0.5, report);
+      steel->modes().leave(mode, Root::snap_back, s, path, 0.5, report);
       ++fell;
-      const auto stored = [&](const PointState& of) {
+      const auto stored = [&](const CompositeState& of) {
         return steel->secant_moduli(of).energy(of.elastic_strain);
       };
       CHECK(report.dissipation.total() == Approx(stored(start) - stored(s)).epsilon(1e-9).margin(1e-9));
@@ -70,7 +71,7 @@ TEST_CASE("where flow and decohesion drive each other the point falls and loses 
         ++separated;
         continue;
       }
-      const DecohesionPlane plane{s.normal_r, s.normal_z};
+      const DecohesionPlane plane{s.normal};
       const SymmetricTensor stress = m.stress(s.elastic_strain);
       CHECK(plane_law.effective_traction(plane.normal_part(stress), plane.tangential_part(stress)) <=
             plane_law.strength(s.decohesion, s.cohesive_strength) + 1e-6 * s.cohesive_strength);

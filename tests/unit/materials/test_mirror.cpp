@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "materials/material.hpp"
+#include "support/composite_material.hpp"
 #include "support/material_samples.hpp"
 
 using namespace vitrum;
@@ -18,23 +18,23 @@ SymmetricTensor mirrored(const SymmetricTensor& a) {
 // A mirror image of a history is a possible history: the choice between conjugate shear planes must not
 // prefer a side.
 TEST_CASE("the mirror image of a path has the mirror image of its crack", "[material][decohesion]") {
-  const std::shared_ptr<const Material> steel = make_material(fracturing_steel(), 1.0e-3);
+  const std::shared_ptr<const CompositeMaterial> steel = composite_of(fracturing_steel(), 1.0e-3);
   int localised = 0;
   for (int i = 0; i < 500; ++i) {
     // Directions all around, none with the principal axes along r and z, where both planes face z alike.
     const double angle = 0.1 + 0.0123 * i, out = 0.03 * std::sin(0.7 * i);
     const SymmetricTensor strain{0.04 * std::cos(angle), -0.04 * std::cos(angle), out,
                                  0.04 * std::sin(angle) + 0.011};
-    PointState one, other;
+    CompositeState one, other;
     PointReport a, b;
     steel->respond(one, strain, 1.0e-6, a);
     steel->respond(other, mirrored(strain), 1.0e-6, b);
-    CAPTURE(i, one.normal_r, one.normal_z, other.normal_r, other.normal_z);
+    CAPTURE(i, one.normal.r, one.normal.z, other.normal.r, other.normal.z);
     REQUIRE(is_localised(one) == is_localised(other));
     if (!is_localised(one)) continue;
     ++localised;
     // n and -n are the same plane.
-    REQUIRE(std::abs(one.normal_r * other.normal_z + one.normal_z * other.normal_r) < 1e-12);
+    REQUIRE(std::abs(one.normal.r * other.normal.z + one.normal.z * other.normal.r) < 1e-12);
     REQUIRE(norm(one.stress - mirrored(other.stress)) < 1e-3);
   }
   CHECK(localised > 100);

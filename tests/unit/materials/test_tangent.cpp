@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "materials/tangent.hpp"
+#include "support/continuum_tangent.hpp"
 #include "support/literal_damage.hpp"
 #include "support/material_samples.hpp"
 #include "support/random_states.hpp"
@@ -10,16 +10,12 @@ using namespace vitrum::test;
 
 namespace {
 
-Eigen::Vector4d vector(const SymmetricTensor& a) {
-  return {a.rr, a.zz, a.tt, a.rz};
-}
-
 /// d(stress) along `direction` from a loading state, by one-sided differences with one Richardson
 /// extrapolation.
-Eigen::Vector4d stress_rate(const Material& material, const PointState& at, const SymmetricTensor& direction,
-                            double h, double rate) {
+Eigen::Vector4d stress_rate(const CompositeMaterial& material, const CompositeState& at,
+                            const SymmetricTensor& direction, double h, double rate) {
   const auto stress_after = [&](double step) {
-    PointState s = at;
+    CompositeState s = at;
     PointReport report;
     const double growth = trace(direction) * step / 3.0;
     material.respond(s, step * direction, rate > 0.0 ? growth / rate : 1.0, report);
@@ -46,7 +42,7 @@ TEST_CASE("elastic tangent is Hooke's law", "[material][tangent]") {
 }
 
 TEST_CASE("damage tangent against the literal law and against the response", "[material][tangent][damage]") {
-  const auto glass = make_material(damaging_glass(), cell);
+  const auto glass = composite_of(damaging_glass(), cell);
   const DamageLaw law(glass_damage(), bare_glass().elastic);
   const double rate = 1.0e3, C = literal_glass().coefficient(rate);
   Random random(51);
@@ -75,7 +71,7 @@ TEST_CASE("damage tangent against the literal law and against the response", "[m
 }
 
 TEST_CASE("von Mises tangent against the response", "[material][tangent][von_mises]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   const VonMisesLaw law(steel_von_mises());
   const Moduli moduli{130.0e9, 78.0e9};
   Random random(52);
@@ -104,7 +100,7 @@ TEST_CASE("Drucker-Prager tangent against the response", "[material][tangent][dr
     MaterialParameters p = bare_glass();
     p.drucker_prager = glass_drucker_prager();
     p.drucker_prager->associated = associated;
-    const auto glass = make_material(p, cell);
+    const auto glass = composite_of(p, cell);
     int compared = 0;
     for (int i = 0; i < 400; ++i) {
       const SymmetricTensor strain =

@@ -58,7 +58,7 @@ TEST_CASE("peak and floor of the paper's steel", "[material][von_mises]") {
 }
 
 TEST_CASE("proportional paths are exact in one increment through every branch", "[material][von_mises]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   Random random(11);
   for (int i = 0; i < 2000; ++i) {
     const double size = random.logarithmic(1e-3, 0.2);
@@ -75,11 +75,11 @@ TEST_CASE("proportional paths are exact in one increment through every branch", 
 }
 
 TEST_CASE("plastic states lie on the yield surface to 1e-12", "[material][von_mises]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   Random random(12);
   int flowed = 0;
   for (int i = 0; i < 2000; ++i) {
-    PointState state;
+    CompositeState state;
     for (int k = 0; k < 5; ++k) {
       const double before = state.plastic_strain;
       PointReport report;
@@ -99,7 +99,7 @@ TEST_CASE("plastic states lie on the yield surface to 1e-12", "[material][von_mi
 }
 
 TEST_CASE("yield and peak are located inside the increment", "[material][von_mises][events]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   Random random(13);
   for (int i = 0; i < 100; ++i) {
     const double size = random.logarithmic(2.5e-2, 0.2);
@@ -115,7 +115,7 @@ TEST_CASE("yield and peak are located inside the increment", "[material][von_mis
 
 TEST_CASE("unloading and reloading are elastic, and yield is announced again",
           "[material][von_mises][events]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   const SymmetricTensor e{0.01, -0.005, -0.005, 0.0};
   const Driven loaded = drive(*steel, {{e, 1.0}}, 3);
   CHECK(loaded.count(EventKind::yield) == 1);
@@ -129,7 +129,7 @@ TEST_CASE("unloading and reloading are elastic, and yield is announced again",
 }
 
 TEST_CASE("work = stored energy + plastic dissipation", "[material][von_mises]") {
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   const SymmetricTensor e{0.06, -0.02, -0.03, 0.03};
   const Driven d = drive(*steel, {{e, 1.0}}, 20000);
   const double balance = d.work - steel->stored_energy(d.state) - d.dissipation.plastic;
@@ -142,7 +142,7 @@ TEST_CASE("softening faster than elasticity can follow releases all at once and 
           "[material][von_mises]") {
   MaterialParameters p = flowing_steel();
   p.von_mises->softening = 1.0e13;
-  const auto steel = make_material(p, cell);
+  const auto steel = composite_of(p, cell);
   const SymmetricTensor n = (1.0 / std::sqrt(6.0)) * SymmetricTensor{2.0, -1.0, -1.0, 0.0};
   for (const int steps : {1, 7, 1000}) {
     const Driven d = drive(*steel, {{0.05 * n, 1.0}}, steps);

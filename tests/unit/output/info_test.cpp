@@ -1,4 +1,5 @@
 #include "output/info.hpp"
+#include "materials/registry.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -114,6 +115,6 @@ TEST_CASE("Provenance and versions are complete", "[output]") {
 }
 
 TEST_CASE("The result reference lists every variable", "[output]") {
-  for (const VariableInfo& variable : all_variables())
-    CHECK_THAT(result_reference(), contains_text("| `" + std::string(variable.name) + "` | 1 |"));
+  for (const Component& column : all_columns())
+    CHECK_THAT(result_reference(), contains_text("| `" + column.name + "` | 1 |"));
 }

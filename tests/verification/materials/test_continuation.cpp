@@ -36,7 +36,7 @@ TEST_CASE("all methods take the same continuation behind the onset of softening 
   Random random(23);
   for (const double mode_ratio : {0.3, 0.7, 1.0, 50.0})
     for (const double opening : {1e-5, 3e-5, 1e-4}) {
-      const auto steel = make_material(steel_with_plane(mode_ratio, opening), cell);
+      const auto steel = composite_of(steel_with_plane(mode_ratio, opening), cell);
       int localised = 0;
       for (int i = 0; i < 15; ++i) {
         const std::vector<Segment> path = turning_path(random);
@@ -64,7 +64,7 @@ TEST_CASE("all methods take the same continuation behind the onset of softening 
 TEST_CASE("at the onset the plane opens and the stress goes inside the yield surface",
           "[local][von_mises][decohesion]") {
   // Strained on in the direction that localised it: plastic strain stays what it was at the onset.
-  const auto steel = make_material(steel_with_plane(0.7, 2e-5), cell);
+  const auto steel = composite_of(steel_with_plane(0.7, 2e-5), cell);
   const std::vector<Segment> on{{{0.03, -0.03, 0.0, 0.0}, 1e-5}};
   const auto check = [&](const Driven& d) {
     REQUIRE(is_localised(d.state));

@@ -17,17 +17,17 @@ const Onset uniaxial{0.118315, 0.201315, 1.471237e-4, 10.808642e6, {1.0, 0.0, 0.
 const Onset hydrostatic{0.165842, 0.272129, 5.188045e-5, 5.437771e6, {1.0, 1.0, 1.0, 0.0}, 1.0};
 
 struct Localised {
-  PointState state;
+  CompositeState state;
   double strain;
 };
 /// Stretches to three times the onset strain in one increment, with an opening so large that the plane stays
 /// closed at first.
 Localised stretch_to_localisation(const Onset& onset, double rate, bool all_planes) {
-  const auto glass = make_material(fracturing_glass(all_planes), cell);
+  const auto glass = composite_of(fracturing_glass(all_planes), cell);
   const double end = 3.0 * onset.strain * std::cbrt(rate);
   const double duration = end * onset.mean_rate_factor / rate;
   PointReport report;
-  PointState probe;
+  CompositeState probe;
   glass->respond(probe, end * onset.direction, duration, report);
   double fraction = -1.0;
   for (std::size_t i = 0; i < report.event_count; ++i)
@@ -70,7 +70,7 @@ TEST_CASE("damage at the onset falls with the volume change of the strain",
   for (const Case& c : {Case{{1.0, 0.0, 0.0, 0.0}, 0.201}, Case{{1.0, -0.4, -0.4, 0.0}, 0.088},
                         Case{{1.0, -0.49, -0.49, 0.0}, 0.013}})
     for (const double rate : {1.0, 1e4}) {
-      const auto glass = make_material(fracturing_glass(), cell);
+      const auto glass = composite_of(fracturing_glass(), cell);
       const double size = 0.1;
       const Driven d = drive(*glass, {{size * c.strain, size * trace(c.strain) / (3.0 * rate)}}, 1);
       CAPTURE(c.damage, rate);

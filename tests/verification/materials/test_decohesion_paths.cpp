@@ -15,13 +15,13 @@ TEST_CASE("mode I follows sigma = tau0 [1 - (eps - eps0)/(u0/L_e - tau0/M)] on a
           "[material][decohesion]") {
   Random random(70);
   const double opening = 5.0e-6;
-  const auto glass = make_material(cohesive_glass(opening, 50.0), cell);
+  const auto glass = composite_of(cohesive_glass(opening, 50.0), cell);
   for (int i = 0; i < 100; ++i) {
     const double angle = random.uniform(-3.0, 3.0), strength = random.uniform(20e6, 300e6);
     const double length = random.uniform(0.5e-3, 1.0e-3);
     const double range = opening / length - strength / M;  // strain from onset to separation
     const SymmetricTensor stretch = normal_dyad(angle);
-    const PointState onset =
+    const CompositeState onset =
         at_onset(*glass, angle, strength, strength / M * Moduli{48e9, G}.stress(stretch), length);
     const double share = random.uniform(0.05, 0.95);
     const int steps = random.integer(1, 30);
@@ -45,11 +45,11 @@ TEST_CASE("a stable softening dissipates U0/2 whatever the mode", "[material][de
   Random random(71);
   for (int i = 0; i < 60; ++i) {
     const double mode_ratio = random.uniform(0.5, 2.0), opening = 5.0e-5, strength = 50.0e6;
-    const auto glass = make_material(cohesive_glass(opening, mode_ratio), cell);
+    const auto glass = composite_of(cohesive_glass(opening, mode_ratio), cell);
     const double angle = random.uniform(-3.0, 3.0), mode = random.uniform(-1.5, 1.5);
     const double tau_n = strength * std::cos(mode), tau_t = strength * mode_ratio * std::sin(mode);
     const SymmetricTensor stress = tau_n * normal_dyad(angle) + 2.0 * tau_t * shear_dyad(angle);
-    const PointState onset = at_onset(*glass, angle, strength, stress);
+    const CompositeState onset = at_onset(*glass, angle, strength, stress);
     const double turn = mode + random.uniform(-0.3, 0.3);
     const SymmetricTensor strain =
         0.4 * (std::abs(std::cos(turn)) * normal_dyad(angle) + 2.0 * std::sin(turn) * shear_dyad(angle));
@@ -71,8 +71,9 @@ TEST_CASE("other exponents q of eq. 13 in mode I", "[material][decohesion]") {
   const double strength = 50.0e6, opening = 5.0e-5;
   const SymmetricTensor stretch = normal_dyad(0.4);
   for (const double q : {0.5, 2.0, 5.0}) {
-    const auto glass = make_material(cohesive_glass(opening, 50.0, q), cell);
-    const PointState onset = at_onset(*glass, 0.4, strength, strength / M * Moduli{48e9, G}.stress(stretch));
+    const auto glass = composite_of(cohesive_glass(opening, 50.0, q), cell);
+    const CompositeState onset =
+        at_onset(*glass, 0.4, strength, strength / M * Moduli{48e9, G}.stress(stretch));
     for (const double lambda : {0.1, 0.5, 0.9})
       for (const int steps : {1, 17}) {
         const double strain = opening / cell * lambda - strength / M * std::pow(lambda, q);
@@ -96,7 +97,7 @@ TEST_CASE("the paper's glass snaps back in mode I from 3.9e4 /s on", "[material]
   const double threshold = std::pow(stiffness * 5.0e-6 / cell / 10.808642e6, 3.0);
   CHECK(threshold == Approx(3.9e4).epsilon(0.01));
   CHECK(10.808642e6 * std::cbrt(threshold) == Approx(367.0e6).epsilon(0.002));
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   for (const int steps : {1, 40})
     for (const double factor : {0.99, 1.01}) {
       const double rate = factor * threshold;
@@ -115,7 +116,7 @@ TEST_CASE("the paper's glass snaps back in mode I from 3.9e4 /s on", "[material]
 }
 
 TEST_CASE("the paper's steel separates at the instant of localisation", "[material][von_mises][decohesion]") {
-  const auto steel = make_material(fracturing_steel(), cell);
+  const auto steel = composite_of(fracturing_steel(), cell);
   const Driven d = drive(*steel, {{{0.05, -0.05, 0.0, 0.0}, 1.0}}, 3);
   REQUIRE(is_separated(d.state));
   CHECK(d.time_of(EventKind::separation) == Approx(d.time_of(EventKind::localisation)).epsilon(1e-9));
@@ -123,14 +124,14 @@ TEST_CASE("the paper's steel separates at the instant of localisation", "[materi
 }
 
 TEST_CASE("decohesion never heals, and unloading keeps the opening", "[material][decohesion]") {
-  const auto glass = make_material(cohesive_glass(5.0e-5, 2.0), cell);
+  const auto glass = composite_of(cohesive_glass(5.0e-5, 2.0), cell);
   Random random(72);
   const double strength = 50.0e6;
   for (int i = 0; i < 50; ++i) {
     const double angle = random.uniform(-3.0, 3.0);
-    PointState s = at_onset(*glass, angle, strength, strength * normal_dyad(angle));
+    CompositeState s = at_onset(*glass, angle, strength, strength * normal_dyad(angle));
     for (int k = 0; k < 30; ++k) {
-      const PointState before = s;
+      const CompositeState before = s;
       PointReport report;
       glass->respond(s, random.tensor(5e-3), 1e-7, report);
       REQUIRE(s.decohesion >= before.decohesion);

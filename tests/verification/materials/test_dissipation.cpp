@@ -27,15 +27,15 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
       MaterialParameters p = named.parameters;
       if (p.drucker_prager) p.drucker_prager->associated = associated;
       if (p.decohesion) p.decohesion->search_all_planes = associated;
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       Random random(110);
       for (int i = 0; i < 500; ++i) {
         CAPTURE(named.name, associated, i);
-        PointState s;
+        CompositeState s;
         for (const Segment& segment : random_path(random, 5, 1e-2)) {
           const int steps = random.integer(1, 4);
           for (int k = 0; k < steps; ++k) {
-            const PointState before = s;
+            const CompositeState before = s;
             PointReport report;
             material->respond(s, (1.0 / steps) * segment.strain, segment.duration / steps, report);
             REQUIRE(is_finite(s));
@@ -43,9 +43,9 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
             REQUIRE(std::min({d.plastic, d.damage, d.fracture, d.snap_back}) >= 0.0);
             REQUIRE(d.snap_back <= d.fracture);
             REQUIRE(s.dissipated == Approx(before.dissipated + d.total()).epsilon(1e-12));
-            for (const VariableInfo& info : material->variables()) {
-              CAPTURE(std::string(info.name));
-              REQUIRE(info.bounds.contain(s.*variable_members[static_cast<std::size_t>(info.variable)]));
+            for (const Component& column : material->columns()) {
+              CAPTURE(column.name);
+              REQUIRE(column.bounds.contain(number(s, column.name)));
             }
             REQUIRE(s.crack_density >= before.crack_density);
             REQUIRE(s.plastic_strain >= before.plastic_strain);
@@ -60,7 +60,7 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
               if (e > 0) REQUIRE(report.events[e].fraction >= report.events[e - 1].fraction);
             }
             if (is_localised(s)) {
-              const double n = std::hypot(s.normal_r, s.normal_z);
+              const double n = std::hypot(s.normal.r, s.normal.z);
               REQUIRE((n == 0.0 || std::abs(n - 1.0) < 1e-12));
             }
           }
@@ -77,7 +77,7 @@ TEST_CASE("every composition on random paths: work = stored + dissipated when re
       if (associated && !p.drucker_prager && !p.decohesion) continue;
       if (p.drucker_prager) p.drucker_prager->associated = associated;
       if (p.decohesion) p.decohesion->search_all_planes = associated;
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       Random random(111);
       for (int i = 0; i < 12; ++i) {
         const auto path = random_path(random, 4, 4e-3);

@@ -17,8 +17,8 @@ std::vector<LocalSolver> all_methods() {
   return all;
 }
 
-PointState judged(const Material& material, const SymmetricTensor& strain, PointReport& report) {
-  PointState s;
+CompositeState judged(const CompositeMaterial& material, const SymmetricTensor& strain, PointReport& report) {
+  CompositeState s;
   s.elastic_strain = strain;
   material.judge(s, report);
   return s;
@@ -29,10 +29,10 @@ PointState judged(const Material& material, const SymmetricTensor& strain, Point
 TEST_CASE("an initial tension is damaged up to the onset, then it localises, in all methods",
           "[material][local][damage][decohesion]") {
   // Uniaxial strain: x_cr .118315, D_cr .2013; then frozen, whatever the tension and whatever follows.
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   for (const double strain : {2e-4, 8.3333e-4, 5e-3}) {
     PointReport report;
-    const PointState start = judged(*glass, {strain, 0.0, 0.0, 0.0}, report);
+    const CompositeState start = judged(*glass, {strain, 0.0, 0.0, 0.0}, report);
     CAPTURE(strain);
     CHECK(start.crack_density == Approx(0.118315 * crack_density_limit).epsilon(1e-5));
     CHECK(glass->damage(start) == Approx(0.2013).epsilon(1e-3));
@@ -68,13 +68,13 @@ TEST_CASE("a state that has been judged asks for nothing more, and its energy is
           "[material][energy][property]") {
   Random random(61);
   for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     int asked = 0;
     for (int i = 0; i < 200; ++i) {
       CAPTURE(named.name, i);
       PointReport report;
       const SymmetricTensor strain = random.logarithmic(1e-5, 3e-3) * random.direction();
-      PointState s = judged(*material, strain, report);
+      CompositeState s = judged(*material, strain, report);
       const double given = elastic_moduli(named.parameters.elastic).energy(strain);
       REQUIRE(report.dissipation.total() + material->stored_energy(s) == Approx(given).epsilon(1e-9));
       REQUIRE(s.dissipated == report.dissipation.total());
@@ -82,19 +82,19 @@ TEST_CASE("a state that has been judged asks for nothing more, and its energy is
       // Held, in all methods.
       for (const LocalSolver& solver : all_methods()) {
         CAPTURE(solver.name);
-        PointState held = s;
+        CompositeState held = s;
         PointReport later;
-        solver.integrator->integrate(*material, held, {}, 1e-6, later);
+        material->integrate(*solver.integrator, held, {}, 1e-6, later);
         REQUIRE(later.cause == "");
         REQUIRE(later.dissipation.total() <= 1e-9 * given);
         REQUIRE(distance(held.stress, s.stress) <= 1e-6 * norm(s.stress));
       }
       PointReport again;
-      const PointState before = s;
+      const CompositeState before = s;
       material->judge(s, again);
       REQUIRE(again.dissipation.total() <= 1e-9 * given);
       REQUIRE(s.crack_density == before.crack_density);
     }
-    CHECK((asked > 0) == (material->variables().size() > 0 && named.name != "elastic+decohesion"));
+    CHECK((asked > 0) == (material->columns().size() > 0 && named.name != "elastic+decohesion"));
   }
 }

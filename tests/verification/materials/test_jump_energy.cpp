@@ -52,7 +52,7 @@ std::vector<MaterialParameters> jumping_materials() {
 struct Balance {
   double missing, bound;
 };
-Balance balance(const Material& material, const PointState& before, const PointState& after,
+Balance balance(const CompositeMaterial& material, const CompositeState& before, const CompositeState& after,
                 const SymmetricTensor& strain, const PointReport& report) {
   const double stored = material.stored_energy(before),
                rise = elastic_moduli(material.parameters().elastic).p_wave() * norm(strain),
@@ -69,20 +69,20 @@ TEST_CASE("every increment's loss of stored energy is booked, and plastic strain
   long separated = 0, snapped = 0;
   for (int sample = 0; sample < 3; ++sample)
     for (const MaterialParameters& p : softening_materials()) {
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       const auto path =
           path_with_reversals(random, random.logarithmic(3e-4, 3e-2), random.logarithmic(1e2, 1e6), 4);
       constexpr int steps = 100;
       for (const LocalSolver& solver : solvers(1e-6)) {
         CAPTURE(sample, p.name, solver.name, p.decohesion->opening, p.decohesion->q,
                 p.decohesion->mode_ratio);
-        PointState s;
+        CompositeState s;
         for (const Segment& segment : path)
           for (int i = 0; i < steps; ++i) {
-            const PointState before = s;
+            const CompositeState before = s;
             const SymmetricTensor strain = (1.0 / steps) * segment.strain;
             PointReport report;
-            solver.integrator->integrate(*material, s, strain, segment.duration / steps, report);
+            material->integrate(*solver.integrator, s, strain, segment.duration / steps, report);
             REQUIRE(report.cause == "");
             REQUIRE(s.plastic_strain >= before.plastic_strain - 1e-12);
             const Balance b = balance(*material, before, s, strain, report);
@@ -102,16 +102,16 @@ TEST_CASE("closed form: every increment's loss of stored energy is booked, coars
   long separated = 0, snapped = 0;
   for (int sample = 0; sample < 6; ++sample)
     for (const MaterialParameters& p : jumping_materials()) {
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       const auto path =
           path_with_reversals(random, random.logarithmic(3e-4, 3e-2), random.logarithmic(1e2, 1e6), 4);
       for (const int steps : {100, 1000}) {
         CAPTURE(sample, p.name, steps, p.damage.has_value(), p.von_mises.has_value(), p.decohesion->opening,
                 p.decohesion->q, p.decohesion->mode_ratio);
-        PointState s;
+        CompositeState s;
         for (const Segment& segment : path)
           for (int i = 0; i < steps; ++i) {
-            const PointState before = s;
+            const CompositeState before = s;
             const SymmetricTensor strain = (1.0 / steps) * segment.strain;
             PointReport report;
             material->respond(s, strain, segment.duration / steps, report);
@@ -134,7 +134,7 @@ TEST_CASE("closed form on random paths of materials that jump: work = stored + d
   Random random(5);
   for (const MaterialParameters& p : jumping_materials())
     for (int sample = 0; sample < 4; ++sample) {
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       const double size = p.name == "steel" ? random.logarithmic(3e-3, 3e-2) : random.logarithmic(3e-4, 5e-3);
       const Driven d = drive(*material, path_with_reversals(random, size, 1e4, 4), 4000);
       const double accounted = material->stored_energy(d.state) + d.dissipation.total();
@@ -148,7 +148,7 @@ TEST_CASE("steel that separates inside an increment books all of its fall, at an
           "[material][local][energy]") {
   // 59.80 MJ/m^3: an independent integration of eqs. 13-26 in tiny steps. (The closed form is of first
   // order.)
-  const auto steel = make_material(fracturing_steel(), cell);
+  const auto steel = composite_of(fracturing_steel(), cell);
   const SymmetricTensor turn{0.011, 0.016, 0.012, 0.015}, end{0.016, 0.019, -0.008, 0.001};
   const std::vector<Segment> path{{turn, 1e-5}, {end - turn, 1e-5}};
   for (const int steps : {1, 3, 30, 300}) {

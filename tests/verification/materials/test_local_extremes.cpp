@@ -17,7 +17,7 @@ TEST_CASE("local solvers at the extremes: finite, bounded, or an error", "[local
         MaterialParameters p = named.parameters;
         if (p.decohesion) p.decohesion->opening = random.logarithmic(1e-12, 1.0);
         if (p.decohesion && random.chance(0.5)) p.decohesion->viscosity = random.logarithmic(1e-15, 1e-6);
-        const auto material = make_material(p, cell);
+        const auto material = composite_of(p, cell);
         const double size = random.logarithmic(1e-12, 1.0);
         const std::vector<Segment> path = path_with_reversals(random, size, random.logarithmic(1e-3, 1e7), 3);
         for (const LocalSolver& solver : solvers(rtol)) {
@@ -30,17 +30,17 @@ TEST_CASE("local solvers at the extremes: finite, bounded, or an error", "[local
 
 TEST_CASE("nothing happens in a zero increment; not-a-number is an error", "[local][extreme]") {
   for (const NamedMaterial& named : all_compositions()) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     for (const LocalSolver& solver : solvers(1e-6)) {
       CAPTURE(named.name, solver.name);
-      PointState s;
+      CompositeState s;
       s.elastic_strain = {1e-5, 0, 0, 1e-6};
       PointReport report;
-      solver.integrator->integrate(*material, s, {}, 1e-7, report);
+      material->integrate(*solver.integrator, s, {}, 1e-7, report);
       CHECK(!report.failed());
       CHECK(s.elastic_strain.rr == 1e-5);
       report.clear();
-      solver.integrator->integrate(*material, s, {std::nan(""), 0, 0, 0}, 1e-7, report);
+      material->integrate(*solver.integrator, s, {std::nan(""), 0, 0, 0}, 1e-7, report);
       CHECK(report.failed());
     }
   }
@@ -53,7 +53,7 @@ TEST_CASE("where a path stands still nothing happens, whatever went before", "[l
   long localised = 0;
   for (int sample = 0; sample < 40; ++sample)
     for (const NamedMaterial& named : all_compositions()) {
-      const auto material = make_material(named.parameters, cell);
+      const auto material = composite_of(named.parameters, cell);
       const auto path = path_with_reversals(random, random.logarithmic(1e-3, 6e-3), 1e4, 3);
       for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-5))) {
         CAPTURE(named.name, solver.name, sample);
@@ -75,7 +75,7 @@ TEST_CASE("where a path stands still nothing happens, whatever went before", "[l
 
 /// By how much the stress lies outside the yield surface, and the traction beyond the strength of the plane;
 /// 1: the strength at first.
-double outside(const Material& material, const PointState& s) {
+double outside(const CompositeMaterial& material, const CompositeState& s) {
   const MaterialParameters& p = material.parameters();
   const Moduli m = material.secant_moduli(s);
   double most = 0.0;
@@ -89,7 +89,7 @@ double outside(const Material& material, const PointState& s) {
   }
   if (is_localised(s) && !is_separated(s)) {
     const DecohesionLaw law(*p.decohesion);
-    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const DecohesionPlane plane{s.normal};
     const SymmetricTensor stress = m.stress(s.elastic_strain);
     const double traction = law.effective_traction(plane.normal_part(stress), plane.tangential_part(stress));
     most = std::max(most, (traction - law.strength(s.decohesion, s.cohesive_strength)) / s.cohesive_strength);
@@ -121,7 +121,7 @@ TEST_CASE("the paper's materials on random paths that reverse and stand still", 
   int failed = 0, left_outside = 0, all = 0;
   for (int sample = 0; sample < 300; ++sample)
     for (const MaterialParameters& p : materials) {
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       const std::vector<Segment> path = path_with_a_hold(random);
       const double rtol = random.logarithmic(1e-9, 1e-3);
       for (const LocalSolver& solver : solvers(rtol)) {
@@ -152,10 +152,10 @@ TEST_CASE("damage that grows to its end while the material flows", "[local][extr
   int failed = 0, backwards = 0, exhausted = 0;
   for (int sample = 0; sample < 100; ++sample)
     for (const MaterialParameters& p : materials) {
-      const auto material = make_material(p, cell);
+      const auto material = composite_of(p, cell);
       const std::vector<Segment> path = path_with_a_hold(random);
       for (const LocalSolver& solver : solvers(random.logarithmic(1e-9, 1e-3))) {
-        PointState state;
+        CompositeState state;
         for (const Segment& segment : path) {
           const Driven d = drive(*material, {segment}, 1 + sample % 3, state, solver.integrator.get());
           failed += d.cause.empty() ? 0 : 1;
@@ -174,8 +174,8 @@ TEST_CASE("a coarse tolerance is one of the strength that is left, not of the in
           "[local][extreme]") {
   // Steel with a thousandth of its strength behind open faces, strained a thousand times as much in one
   // increment: errors of a hundredth of that were all of the stress, and flow ended and began 2,000 times.
-  const auto steel = make_material(fracturing_steel(), cell);
-  PointState start =
+  const auto steel = composite_of(fracturing_steel(), cell);
+  CompositeState start =
       at_onset(*steel, std::atan2(0.836116156986512, 0.5485524332514685), 207322818.0, {}, 8.88e-4);
   start.elastic_strain = {-3.1034094441735426e-5, -6.201609166313451e-6, 1.2106504809440533e-5,
                           2.860388403363182e-5};
@@ -197,12 +197,12 @@ TEST_CASE("a coarse tolerance is one of the strength that is left, not of the in
 TEST_CASE("a coarse tolerance is one of the strength under pressure, too", "[local][extreme]") {
   // A part of the elastic strain, pressure and all, was many times the strain that so little strength bears:
   // the flow of the increment dissipated 148 times what it does.
-  const auto steel = make_material(flowing_steel(), cell);
+  const auto steel = composite_of(flowing_steel(), cell);
   const VonMisesLaw law(steel_von_mises());
   const double softened = 0.2;  // plastic strain
   const double strength = 0.5 * law.radius(softened) / elastic_moduli(flowing_steel().elastic).shear;
   for (const double mean : {0.0, 1e-3, -1e-3, -3e-2}) {
-    PointState start;
+    CompositeState start;
     start.plastic_strain = softened;
     start.elastic_strain = strength * std::sqrt(0.5) * SymmetricTensor{1, -1, 0, 0} + mean * identity();
     const SymmetricTensor strain{5e-4, -1e-3, 5e-4, 1.5e-3};
@@ -225,12 +225,12 @@ TEST_CASE("a plane that localised free of traction has no strength to lose", "[l
   MaterialParameters parameters = damaging_glass();
   parameters.von_mises = VonMisesParameters{40e6, 50e6, 10e9, 40e9};
   parameters.decohesion = glass_decohesion();
-  const auto material = make_material(parameters, cell);
+  const auto material = composite_of(parameters, cell);
   Random random(11);
   for (const LocalSolver& solver : solvers(6e-4))
     for (int n = 0; n < 100; ++n) {
       CAPTURE(solver.name, n);
-      PointState s = at_onset(*material, random.uniform(0.0, 3.0), random.logarithmic(1e-12, 1e-2), {});
+      CompositeState s = at_onset(*material, random.uniform(0.0, 3.0), random.logarithmic(1e-12, 1e-2), {});
       s.plastic_strain = 0.01, s.elastic_strain = random.uniform(-1.5e-3, -1e-4) * identity();
       const SymmetricTensor strain = random.tensor(1e-2);
       const Driven d = drive(*material, {{strain, 1e-6}}, 1, s, solver.integrator.get());
@@ -242,16 +242,16 @@ TEST_CASE("a plane that localised free of traction has no strength to lose", "[l
 
 TEST_CASE("an increment that stays elastic, unloads or is closed reaches no solver",
           "[local][verification]") {
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   for (const LocalSolver& solver : solvers(1e-6)) {
     CAPTURE(solver.name);
-    const auto solves_of = [&](PointState start, const SymmetricTensor& strain) {
+    const auto solves_of = [&](CompositeState start, const SymmetricTensor& strain) {
       return drive(*glass, {{strain, 1e-6}}, 1, start, solver.integrator.get()).solver.solves;
     };
     CHECK(solves_of({}, {-1e-3, 0, 0, 0}) == 0);
-    const PointState loaded = drive(*glass, {{{1e-3, 0, 0, 0}, 1e-6}}, 1).state;
+    const CompositeState loaded = drive(*glass, {{{1e-3, 0, 0, 0}, 1e-6}}, 1).state;
     CHECK(solves_of(loaded, {-5e-4, 0, 0, 0}) == 0);
-    const PointState separated = drive(*glass, {{{1e-2, 0, 0, 0}, 1e-5}}, 1).state;
+    const CompositeState separated = drive(*glass, {{{1e-2, 0, 0, 0}, 1e-5}}, 1).state;
     REQUIRE(is_separated(separated));
     CHECK(solves_of(separated, {1e-3, 0, 0, 0}) == 0);
     CHECK(solves_of(separated, {-2e-2, 0, 0, 0}) == 0);
@@ -263,7 +263,7 @@ TEST_CASE("open faces lose the traction that errors left on them before they may
   // Where it stayed, faces that just met pulled each other open at once: more than 2,000 changes of mode.
   MaterialParameters parameters = cohesive_glass(1.6e-9);
   parameters.von_mises = VonMisesParameters{359e6, 484e6, 9.6e9, 9.6e9};
-  const auto material = make_material(parameters, cell);
+  const auto material = composite_of(parameters, cell);
   const double stiffness = elastic_moduli(parameters.elastic).p_wave();
   Random random(20261125);
   for (const LocalSolver& solver : solvers(1e-6))
@@ -271,7 +271,7 @@ TEST_CASE("open faces lose the traction that errors left on them before they may
       const double angle = random.uniform(0.0, 3.0), left_over = random.logarithmic(1e5, 1e7),
                    gap = random.logarithmic(1e-9, 1e-7);
       CAPTURE(solver.name, n, angle, left_over, gap);
-      PointState s = at_onset(*material, angle, 2.5e8, left_over * normal_dyad(angle));
+      CompositeState s = at_onset(*material, angle, 2.5e8, left_over * normal_dyad(angle));
       s.plastic_strain = 0.015, s.decohesion = 1.0, s.opening_n = gap;
       const SymmetricTensor closing = -1.001 * (gap / cell) * normal_dyad(angle);
       const auto end = drive(*material, {{closing, 5e-8}}, 1, s, solver.integrator.get());

@@ -38,7 +38,7 @@ double relative(double value, double exact) {
 
 TEST_CASE("damage at a constant rate: onset and localisation for every tolerance", "[local][verification]") {
   // Uniaxial strain, R = 1e3 /s: x_cr .118315, eps_1 1.471237e-4 R^(1/3) (physics of eqs. 4-9).
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   const double rate = 3.0e3, end = 1.6e-3;
   const double exact = 1.471237e-4 * 10.0;
   const Driven fine = drive(*glass, {{{end, 0, 0, 0}, end / rate}}, 1);
@@ -57,7 +57,7 @@ TEST_CASE("damage at a constant rate: onset and localisation for every tolerance
 }
 
 TEST_CASE("decohesion in mode I: the traction falls linearly, for every tolerance", "[local][verification]") {
-  const auto glass = make_material(fracturing_glass(), cell);
+  const auto glass = composite_of(fracturing_glass(), cell);
   const double rate = 3.0e3;
   const Driven onset = drive(*glass, {{{1.6e-3, 0, 0, 0}, 1.6e-3 / rate}}, 1);
   const double start = onset.time_of(EventKind::localisation) * rate;
@@ -82,7 +82,7 @@ TEST_CASE("von Mises under a constant direction of the strain rate, for every to
   for (const double hardening : {0.0, 9.6e9}) {
     MaterialParameters p = bare_steel();
     p.von_mises = VonMisesParameters{359.0e6, hardening > 0.0 ? 3590.0e6 : 359.0e6, hardening, 0.0};
-    const auto steel = make_material(p, cell);
+    const auto steel = composite_of(p, cell);
     const double G = elastic_moduli(p.elastic).shear, radius = VonMisesLaw::factor * 359.0e6;
     const SymmetricTensor a = random.deviatoric_direction();
     SymmetricTensor b = random.deviatoric_direction();
@@ -91,7 +91,7 @@ TEST_CASE("von Mises under a constant direction of the strain rate, for every to
     // On the surface along a, then on along the direction psi0 from a.
     const double psi0 = 2.2, amount = 4.0e-3;
     const SymmetricTensor direction = std::cos(psi0) * a + std::sin(psi0) * b;
-    PointState start;
+    CompositeState start;
     start.elastic_strain = (radius / (2.0 * G) * (1.0 - 1e-14)) * a;
     start.stress = elastic_moduli(p.elastic).stress(start.elastic_strain);
     // psi0 > 90 degrees: first elastic through the inside, back to the surface on the other side.
@@ -136,7 +136,7 @@ TEST_CASE("substepper and CVODE agree on 1,008 random paths of every composition
   int compared = 0, undecided = 0;
   for (int sample = 0; sample < 84; ++sample)
     for (const NamedMaterial& named : all_compositions()) {
-      const auto material = make_material(named.parameters, cell);
+      const auto material = composite_of(named.parameters, cell);
       const std::vector<Segment> path = path_with_reversals(random, random.logarithmic(3e-4, 3e-3), 1e4, 5);
       CAPTURE(named.name, sample);
       const std::vector<LocalSolver> tight = solvers(1e-8);
@@ -166,7 +166,7 @@ TEST_CASE("the closed form converges to the ODE form on random paths", "[local][
   double coarse = 0.0, fine = 0.0;
   for (int sample = 0; sample < 20; ++sample)
     for (const NamedMaterial& named : all_compositions()) {
-      const auto material = make_material(named.parameters, cell);
+      const auto material = composite_of(named.parameters, cell);
       const std::vector<Segment> path = path_with_reversals(random, random.logarithmic(3e-4, 2e-3), 1e4, 4);
       CAPTURE(named.name, sample);
       const LocalSolver reference = std::move(solvers(1e-9)[1]);
@@ -192,12 +192,12 @@ TEST_CASE("the closed form converges to the ODE form on random paths", "[local][
 TEST_CASE("viscous decohesion: stiff relaxation, down to viscosities of 1e-15 s", "[local][verification]") {
   // eta -> 0 with a well-posed softening is the rate-independent law.
   const double rate = 3.0e3, end = 4.0e-3;
-  const auto inviscid = make_material(fracturing_glass(), cell);
+  const auto inviscid = composite_of(fracturing_glass(), cell);
   const Driven limit = drive(*inviscid, {{{end, 0, 0, 0}, end / rate}}, 1);
   for (const double viscosity : {1e-9, 1e-12, 1e-15}) {
     MaterialParameters p = fracturing_glass();
     p.decohesion->viscosity = viscosity;
-    const auto glass = make_material(p, cell);
+    const auto glass = composite_of(p, cell);
     const Driven fine = drive(*glass, {{{end, 0, 0, 0}, end / rate}}, 20000);
     for (const LocalSolver& solver : solvers(1e-6)) {
       CAPTURE(solver.name, viscosity);
@@ -214,7 +214,7 @@ TEST_CASE("Drucker-Prager under proportional shear with growing pressure, for ev
           "[local][verification]") {
   MaterialParameters p = bare_glass();
   p.drucker_prager = glass_drucker_prager();
-  const auto glass = make_material(p, cell);
+  const auto glass = composite_of(p, cell);
   const Moduli m = elastic_moduli(p.elastic);
   const SymmetricTensor n = Random(8).deviatoric_direction();
   const double shear = 4.0e-3, volume = -3.0e-4;
@@ -239,7 +239,7 @@ TEST_CASE("on random paths with reversals the error stays within 100 rtol over t
   materials.back().parameters.drucker_prager = glass_drucker_prager();
   Random random(77);
   for (const NamedMaterial& named : materials) {
-    const auto material = make_material(named.parameters, cell);
+    const auto material = composite_of(named.parameters, cell);
     for (int sample = 0; sample < 6; ++sample) {
       const std::vector<Segment> path = path_with_reversals(random, 2e-3, 1e4, 5);
       CAPTURE(named.name, sample);

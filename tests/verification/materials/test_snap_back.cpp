@@ -13,8 +13,8 @@ struct Balance {
   double lost;  // work - stored - dissipated, J/m^3
 };
 
-Balance follow_balance(const Material& material, const PointState& onset, const SymmetricTensor& strain,
-                       int steps) {
+Balance follow_balance(const CompositeMaterial& material, const CompositeState& onset,
+                       const SymmetricTensor& strain, int steps) {
   const Driven d = drive(material, {{strain, 1.0}}, steps, onset);
   return {d,
           d.work - (material.stored_energy(d.state) - material.stored_energy(onset)) - d.dissipation.total()};
@@ -27,17 +27,17 @@ TEST_CASE("a release at once loses no energy", "[material][decohesion][energy]")
   for (int i = 0; i < 200; ++i) {
     // A reference opening so small that nothing but the snap-back happens.
     const double strength = random.uniform(20e6, 400e6), angle = random.uniform(-3.0, 3.0);
-    const auto glass = make_material(cohesive_glass(1e-9, random.logarithmic(0.1, 50.0)), cell);
+    const auto glass = composite_of(cohesive_glass(1e-9, random.logarithmic(0.1, 50.0)), cell);
     const double mode = random.uniform(-1.5, 1.5), C = glass->parameters().decohesion->mode_ratio;
     const SymmetricTensor stress = strength * std::cos(mode) * normal_dyad(angle) +
                                    2.0 * strength * C * std::sin(mode) * shear_dyad(angle) +
                                    random.uniform(-1e7, 1e7) * SymmetricTensor{0.0, 0.0, 1.0, 0.0};
-    const PointState onset = at_onset(*glass, angle, strength, stress);
-    PointState s = onset;
+    const CompositeState onset = at_onset(*glass, angle, strength, stress);
+    CompositeState s = onset;
     PointReport report;
     // So short that the increment itself does no work to speak of.
     glass->respond(s, 1e-13 * stress.rr / std::abs(stress.rr) * onset.elastic_strain, 1e-9, report);
-    PointState loaded = onset;
+    CompositeState loaded = onset;
     PointReport loaded_report;
     const double sign = contract(onset.stress, onset.elastic_strain) > 0.0 ? 1.0 : -1.0;
     glass->respond(loaded, sign * 1e-9 * onset.elastic_strain, 1e-9, loaded_report);
@@ -56,11 +56,11 @@ TEST_CASE("softening that turns into a snap-back on its way loses no energy",
   for (int i = 0; i < 40; ++i) {
     // Mixed mode with C_m = 50: the normal traction goes first, and the shear that is left snaps back.
     const double strength = random.uniform(20e6, 100e6), angle = random.uniform(-3.0, 3.0);
-    const auto glass = make_material(cohesive_glass(5.0e-6, 50.0), cell);
+    const auto glass = composite_of(cohesive_glass(5.0e-6, 50.0), cell);
     const double shear = random.uniform(-3.0, 3.0) * strength;
     const double normal = std::sqrt(strength * strength - shear * shear / 2500.0);
     const SymmetricTensor stress = normal * normal_dyad(angle) + 2.0 * shear * shear_dyad(angle);
-    const PointState onset = at_onset(*glass, angle, strength, stress);
+    const CompositeState onset = at_onset(*glass, angle, strength, stress);
     const SymmetricTensor strain =
         8e-3 * normal_dyad(angle) + random.uniform(-2e-3, 2e-3) * shear_dyad(angle);
     const Balance fine = follow_balance(*glass, onset, strain, 20000);
@@ -82,8 +82,8 @@ TEST_CASE("exponents that snap back only at the end or only at the start lose no
     for (const int steps : {1, 10, 20000}) {
       const double opening =
           q < 1.0 ? 5.0e-5 : 1.2e-6;  // q = 5: stable until 5 lambda^4 = M u0/(L tau0) = 2.07
-      const auto glass = make_material(cohesive_glass(opening, 50.0, q), cell);
-      const PointState onset =
+      const auto glass = composite_of(cohesive_glass(opening, 50.0, q), cell);
+      const CompositeState onset =
           at_onset(*glass, 0.4, strength, strength / M * Moduli{48e9, 28.8e9}.stress(stretch));
       const Balance b = follow_balance(*glass, onset, (1.5 * opening / cell) * stretch, steps);
       CAPTURE(q, steps);

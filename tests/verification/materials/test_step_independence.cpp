@@ -11,13 +11,13 @@ namespace {
 /// What is known at the instant of localisation.
 struct Onset {
   double time = -1.0;
-  PointState state;  // just before
-  PointState after;  // at the end of the path: the fields that localisation fixes
+  CompositeState state;  // just before
+  CompositeState after;  // at the end of the path: the fields that localisation fixes
   double damage = 0.0;
 };
 
-Onset onset_of(const Material& material, const std::vector<Segment>& path, int steps,
-               const PointState& start) {
+Onset onset_of(const CompositeMaterial& material, const std::vector<Segment>& path, int steps,
+               const CompositeState& start) {
   const Driven whole = drive(material, path, steps, start);
   Onset onset;
   onset.after = whole.state;
@@ -26,7 +26,7 @@ Onset onset_of(const Material& material, const std::vector<Segment>& path, int s
   if (onset.time < 0.0) return onset;
   // The same steps, cut off at the instant found.
   double time = 0.0;
-  PointState s = start;
+  CompositeState s = start;
   for (const Segment& segment : path)
     for (int i = 0; i < steps; ++i) {
       const double step = segment.duration / steps;
@@ -52,7 +52,8 @@ void require_same(const Onset& a, const Onset& b) {
   REQUIRE(b.damage == Approx(a.damage).epsilon(1e-4));
 }
 
-int compare_steps(const Material& material, const std::vector<Segment>& path, const PointState& start = {}) {
+int compare_steps(const CompositeMaterial& material, const std::vector<Segment>& path,
+                  const CompositeState& start = {}) {
   const Onset one = onset_of(material, path, 1, start);
   for (const int steps : {10, 1000}) {
     CAPTURE(steps, one.time);
@@ -67,7 +68,7 @@ TEST_CASE("localisation does not depend on the step: straight paths of glass",
           "[material][damage][step-independence]") {
   Random random(100);
   for (const bool all : {false, true}) {
-    const auto glass = make_material(fracturing_glass(all), cell);
+    const auto glass = composite_of(fracturing_glass(all), cell);
     int localised = 0;
     for (int i = 0; i < 250; ++i) {
       SymmetricTensor direction = random.direction();
@@ -85,7 +86,7 @@ TEST_CASE("localisation does not depend on the step: paths of several segments i
           "[material][damage][step-independence]") {
   Random random(101);
   for (const bool all : {false, true}) {
-    const auto glass = make_material(fracturing_glass(all), cell);
+    const auto glass = composite_of(fracturing_glass(all), cell);
     int localised = 0;
     for (int i = 0; i < 250; ++i) {
       std::vector<Segment> path;
@@ -105,7 +106,7 @@ TEST_CASE("localisation is not missed where damage resumes and the strain turns 
           "[material][damage][step-independence]") {
   // Hydrostatic growth, unloading, a deviator that is critical when the trace comes back, then away from it.
   Random random(102);
-  const auto glass = make_material(fracturing_glass(false), cell);
+  const auto glass = composite_of(fracturing_glass(false), cell);
   int localised = 0;
   for (int i = 0; i < 300; ++i) {
     const double rate = 1.0e3, mean = random.uniform(4.6e-4, 5.1e-4);  // hydrostatic onset: 5.188e-4
@@ -127,7 +128,7 @@ TEST_CASE("localisation of steel does not depend on the step on proportional pat
   Random random(103);
   MaterialParameters p = fracturing_steel(false);
   p.von_mises->softening = 30.0e9;
-  const auto steel = make_material(p, cell);
+  const auto steel = composite_of(p, cell);
   int localised = 0;
   for (int i = 0; i < 200; ++i) {
     const SymmetricTensor strain =
@@ -139,7 +140,7 @@ TEST_CASE("localisation of steel does not depend on the step on proportional pat
 }
 
 TEST_CASE("separation in mode I does not depend on the step", "[material][decohesion][step-independence]") {
-  const auto glass = make_material(fracturing_glass(false), cell);
+  const auto glass = composite_of(fracturing_glass(false), cell);
   for (const double rate : {10.0, 1e3, 3e4, 1e5}) {
     const double strain = 0.03;
     const std::vector<Segment> path{{{strain, 0.0, 0.0, 0.0}, strain / (3.0 * rate)}};

@@ -29,7 +29,7 @@ TEST_CASE("steel that is critical for a moment of an increment localises in it",
   // It yields again where softening flow is critical, and turns away at once. An independent integration in
   // tiny steps: localisation at 1.05066e-5 s, dissipation 55.66 MJ/m^3. (The closed form needed 1,000
   // increments to see it, and ended at 3.0 GPa of hydrostatic tension otherwise.)
-  const auto steel = make_material(fracturing_steel(), cell);
+  const auto steel = composite_of(fracturing_steel(), cell);
   const SymmetricTensor turn{0.019, -0.005, 0.013, -0.004}, end{0.026, 0.003, -0.006, 0.019};
   const std::vector<Segment> path{{turn, 1e-5}, {end - turn, 1e-5}};
   const auto check = [](const Driven& d) {
@@ -51,7 +51,7 @@ TEST_CASE("localisation of steel on turning paths: coarse increments against tin
   // The direction of the stress, first order on such paths, decides some cases of 3 increments a piece, and
   // lets some localise that come near only.
   Random random(17);
-  const auto steel = make_material(fracturing_steel(), cell);
+  const auto steel = composite_of(fracturing_steel(), cell);
   int localised = 0, missed_3 = 0, missed_5 = 0, missed_30 = 0, extra = 0;
   for (int i = 0; i < 400; ++i) {
     const std::vector<Segment> path = turning_path(random, 2.5e-2);
@@ -75,7 +75,7 @@ TEST_CASE("localisation of glass under swinging shear does not depend on the ste
   // Damage grows slowly while the deviator swings through, or away from, what is critical.
   Random random(55);
   for (const bool all : {false, true}) {
-    const auto glass = make_material(fracturing_glass(all), cell);
+    const auto glass = composite_of(fracturing_glass(all), cell);
     int localised = 0;
     for (int i = 0; i < 200; ++i) {
       const double mean = random.uniform(3.5e-4, 5.1e-4), more = random.logarithmic(1e-3, 0.3) * mean,

@@ -11,8 +11,8 @@ constexpr double M = 86.4e9, strength = 50.0e6, opening = 5.0e-6, angle = 0.3;
 
 Driven soften(double viscosity, double strain, double duration, int steps,
               double reference_opening = opening) {
-  const auto glass = make_material(cohesive_glass(reference_opening, 50.0, 1.0, viscosity), cell);
-  const PointState onset =
+  const auto glass = composite_of(cohesive_glass(reference_opening, 50.0, 1.0, viscosity), cell);
+  const CompositeState onset =
       at_onset(*glass, angle, strength, strength / M * Moduli{48e9, 28.8e9}.stress(normal_dyad(angle)));
   return drive(*glass, {{strain * normal_dyad(angle), duration}}, steps, onset);
 }
@@ -59,7 +59,7 @@ TEST_CASE("viscosity takes the jump out of a snap-back and loses no energy",
           "[material][decohesion][viscosity][energy]") {
   const Driven d = soften(1e-7, 2.0e-3, 1.0e-5, 20000, 1.0e-7);  // snaps back at once without viscosity
   REQUIRE(is_separated(d.state));
-  const auto glass = make_material(cohesive_glass(1.0e-7, 50.0, 1.0, 1e-7), cell);
+  const auto glass = composite_of(cohesive_glass(1.0e-7, 50.0, 1.0, 1e-7), cell);
   const double initial = 0.5 * strength * strength / M;
   CHECK(d.work + initial - d.dissipation.total() - glass->stored_energy(d.state) ==
         Approx(0.0).margin(2e-3 * d.dissipation.total()));
@@ -76,11 +76,11 @@ TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][ver
   Random random(99);
   MaterialParameters p = fracturing_glass();
   p.decohesion->viscosity = 1e-9;
-  const auto glass = make_material(p, cell);
-  const PointState onset = drive(*glass, {{{1.7e-3, 0, 0, 4e-4}, 6e-7}}, 1).state;
+  const auto glass = composite_of(p, cell);
+  const CompositeState onset = drive(*glass, {{{1.7e-3, 0, 0, 4e-4}, 6e-7}}, 1).state;
   REQUIRE(is_localised(onset));
   for (int sample = 0; sample < 200; ++sample) {
-    PointState s = onset;
+    CompositeState s = onset;
     s.decohesion = random.uniform(0.05, 0.9);
     s.elastic_strain += 3e-4 * random.direction();
     EvolutionMode mode;
@@ -88,14 +88,14 @@ TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][ver
     mode.tension = mode.viscous = true;
     mode.pulled = random.chance(0.8);
     const StrainPath path{2e-4 * random.direction(), 1e-7};
-    const OpeningJacobian J = glass->opening_jacobian(mode, s, path);
-    const DecohesionPlane plane{s.normal_r, s.normal_z};
+    const OpeningJacobian J = glass->modes().opening_jacobian(mode, s, path);
+    const DecohesionPlane plane{s.normal};
     const auto rates_after = [&](std::size_t j, double change) {
-      PointState moved = s;
+      CompositeState moved = s;
       if (j == 0) moved.decohesion += change;
       if (j == 1) moved.elastic_strain -= plane.jump_strain(change, 0.0, s.effective_length);
       if (j == 2) moved.elastic_strain -= plane.jump_strain(0.0, change, s.effective_length);
-      const EvolutionRates r = glass->rates(mode, moved, path);
+      const EvolutionRates r = glass->modes().rates(mode, moved, path);
       return std::array<double, 4>{r.decohesion, r.opening_n, r.opening_t, r.fracture};
     };
     for (std::size_t j = 0; j < 3; ++j) {

@@ -51,7 +51,7 @@ double softening_drop(double softening) {
 }
 
 Driven pull(const MaterialParameters& p, const SymmetricTensor& direction, int steps) {
-  return drive(*make_material(p, cell), {{(0.06 / norm(direction)) * direction, 1.0}}, steps);
+  return drive(*composite_of(p, cell), {{(0.06 / norm(direction)) * direction, 1.0}}, steps);
 }
 
 }  // namespace
@@ -71,16 +71,16 @@ TEST_CASE("critical plane of von Mises flow against a scan of det(n.T.n)",
     REQUIRE(found.severity == Approx(drop / contract(s, s) / expected.H).epsilon(1e-9));
 
     const InPlanePrincipal p = in_plane_principal(s);
-    const bool found_hoop = found.normal_r == 0.0 && found.normal_z == 0.0;
+    const bool found_hoop = found.normal.r == 0.0 && found.normal.z == 0.0;
     REQUIRE(found_hoop == expected.hoop);
     if (found_hoop) {
       ++hoop;
       continue;
     }
-    REQUIRE(std::hypot(found.normal_r, found.normal_z) == Approx(1.0).epsilon(1e-12));
+    REQUIRE(std::hypot(found.normal.r, found.normal.z) == Approx(1.0).epsilon(1e-12));
     // Both signs of theta are critical: compare the angle to the major axis.
     const double axis = std::atan2(p.direction_z, p.direction_r);
-    const double theta = axis_difference(std::atan2(found.normal_z, found.normal_r), axis);
+    const double theta = axis_difference(std::atan2(found.normal.z, found.normal.r), axis);
     const double scanned = axis_difference(expected.angle, axis);
     const double cosine = 3.0 * G * 0.5 * (p.major + p.minor) / ((G + 3.0 * K) * 0.5 * (p.major - p.minor));
     if (std::abs(cosine) > 1.0) ++clamped;
@@ -106,7 +106,7 @@ TEST_CASE("critical plane of von Mises flow against eqs. 25 and 26 where the hoo
     const CriticalPlane plane = von_mises_critical_plane(s, {K, G}, drop, true);
     REQUIRE(plane.severity == Approx(drop / contract(s, s) / critical).epsilon(1e-12));
     const double axis = std::atan2(p.direction_z, p.direction_r);
-    REQUIRE(axis_difference(std::atan2(plane.normal_z, plane.normal_r), axis) == Approx(theta).epsilon(1e-9));
+    REQUIRE(axis_difference(std::atan2(plane.normal.z, plane.normal.r), axis) == Approx(theta).epsilon(1e-9));
   }
 }
 

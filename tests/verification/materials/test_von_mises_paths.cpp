@@ -18,8 +18,8 @@ MaterialParameters steel_with(double hardening) {
 }
 
 /// A state on the yield surface with deviator along `direction` (of unit norm).
-PointState yielding_state(const SymmetricTensor& direction) {
-  PointState s;
+CompositeState yielding_state(const SymmetricTensor& direction) {
+  CompositeState s;
   s.elastic_strain = (root * 359.0e6 / (2.0 * G)) * direction;
   return s;
 }
@@ -40,7 +40,7 @@ SymmetricTensor turned(const SymmetricTensor& from, const SymmetricTensor& towar
 
 TEST_CASE("perfect plasticity turns the deviator by the tan(psi/2) law, at first order in the step",
           "[material][von_mises][convergence]") {
-  const auto steel = make_material(steel_with(0.0), cell);
+  const auto steel = composite_of(steel_with(0.0), cell);
   Random random(20);
   for (int i = 0; i < 20; ++i) {
     const double psi0 = random.uniform(0.2, 1.5);
@@ -63,7 +63,7 @@ TEST_CASE("linear hardening follows |s| = R0 (sin psi0 / sin psi)^kappa",
           "[material][von_mises][convergence]") {
   Random random(21);
   for (const double hardening : {9.6e9, 60.0e9}) {
-    const auto steel = make_material(steel_with(hardening), cell);
+    const auto steel = composite_of(steel_with(hardening), cell);
     const double kappa = root * hardening / (2.0 * G + root * hardening);
     for (int i = 0; i < 10; ++i) {
       const double psi0 = random.uniform(0.4, 1.5);

@@ -33,10 +33,10 @@ TEST_CASE("work and precision of the three methods", "[.][work-precision]") {
   };
   std::printf("| increment | method | tolerance or steps | error | us |\n|---|---|---|---|---|\n");
   for (const Work& work : works) {
-    const auto material = make_material(work.material, cell);
+    const auto material = composite_of(work.material, cell);
     Cvode tight({1e-13, 1e-15}, CvodeFamily::bdf);
-    const PointState start =
-        work.before.empty() ? PointState{} : drive(*material, work.before, 1, {}, &tight).state;
+    const CompositeState start =
+        work.before.empty() ? CompositeState{} : drive(*material, work.before, 1, {}, &tight).state;
     const Driven reference = drive(*material, work.increment, 1, start, &tight);
     const double scale = std::max(norm(reference.state.stress - start.stress), 1.0);
     const auto measure = [&](const std::string& method, const std::string& setting,

@@ -44,7 +44,7 @@ TEST_CASE("Taylor bar: length, foot radius and volume", "[verification][mpm]") {
     for (std::size_t i = 0; i < p.size; ++i) initial_volume += p.mass[i] / 8930.0;
     run.advance(80e-6);
     double top = 0.0, foot = 0.0, lowest = 1.0, volume = 0.0, largest_strain = 0.0;
-    const auto& plastic = p.variables[static_cast<std::size_t>(Variable::plastic_strain)];
+    const auto& plastic = run.system.bodies[0].column("plastic_strain");
     for (std::size_t i = 0; i < p.size; ++i) {
       top = std::max(top, p.position[1][i]);
       lowest = std::min(lowest, p.position[1][i]);

@@ -1,0 +1,113 @@
+#include <array>
+
+#include "materials/composite/make.hpp"
+
+namespace vitrum {
+using intervals::not_negative, intervals::positive;
+
+std::span<const ParameterInfo<ElasticParameters>> ElasticParameters::describe() {
+  using P = ElasticParameters;
+  static constexpr std::array<ParameterInfo<P>, 3> table{{
+      {"density", &P::density, "kg/m^3", {}, positive, "mass density"},
+      {"young", &P::young, "Pa", {}, positive, "Young's modulus"},
+      {"poisson", &P::poisson, "1", {}, {-1.0, 0.5, true, true}, "Poisson's ratio"},
+  }};
+  return table;
+}
+
+std::span<const ParameterInfo<DamageParameters>> DamageParameters::describe() {
+  using P = DamageParameters;
+  static constexpr std::array<ParameterInfo<P>, 4> table{{
+      {"toughness", &P::toughness, "Pa m^0.5", {}, positive, "fracture toughness K_IC, eq. 7"},
+      {"k", &P::k, "1/m^3", {}, positive, "flaw density parameter k, eq. 7"},
+      {"m", &P::m, "1", {}, {1.0, 100.0, true}, "exponent m of the mean strain, eq. 7"},
+      {"rate_floor", &P::rate_floor, "1/s", 1.0, positive, "least strain rate that enters eq. 7"},
+  }};
+  return table;
+}
+
+std::span<const ParameterInfo<DruckerPragerParameters>> DruckerPragerParameters::describe() {
+  using P = DruckerPragerParameters;
+  static constexpr std::array<ParameterInfo<P>, 2> table{{
+      {"yield", &P::yield, "Pa", {}, positive, "yield strength at zero pressure sigma_y, eq. 19"},
+      {"beta", &P::beta, "1", {}, not_negative, "pressure sensitivity beta, eq. 19"},
+  }};
+  return table;
+}
+
+std::span<const ParameterInfo<VonMisesParameters>> VonMisesParameters::describe() {
+  using P = VonMisesParameters;
+  static constexpr std::array<ParameterInfo<P>, 4> table{{
+      {"yield", &P::yield, "Pa", {}, positive, "yield strength sigma_y, eq. 21"},
+      {"peak", &P::peak, "Pa", {}, positive, "peak strength sigma_p, eq. 21"},
+      {"hardening", &P::hardening, "Pa", {}, not_negative, "hardening modulus E_h, eq. 21"},
+      {"softening", &P::softening, "Pa", {}, not_negative, "softening modulus E_s, eq. 21"},
+  }};
+  return table;
+}
+
+std::span<const ParameterInfo<DecohesionParameters>> DecohesionParameters::describe() {
+  using P = DecohesionParameters;
+  static constexpr std::array<ParameterInfo<P>, 4> table{{
+      {"opening", &P::opening, "m", {}, positive, "reference decohesion u0, eq. 15"},
+      {"q", &P::q, "1", 1.0, {0.0, 100.0, true}, "exponent q of the softening, eq. 13"},
+      {"mode_ratio", &P::mode_ratio, "1", {}, positive, "C_m = tau_tp / tau_np, eq. 18"},
+      {"viscosity", &P::viscosity, "s", 0.0, not_negative,
+       "viscosity eta of eta lambda' = <f>/U0; 0: a snap-back releases at once"},
+  }};
+  return table;
+}
+
+std::vector<Variable> damage_variables() {
+  return {{.name = "crack_density",
+           .unit = "1",
+           .text = "crack density rho_d, eq. 7",
+           .scale = crack_density_limit,
+           .bounds = {0.0, crack_density_limit}},
+          {.name = "max_rate",
+           .unit = "1/s",
+           .text = "running maximum of the tensile mean strain rate, eq. 7",
+           .scale = 1.0e3,
+           .bounds = not_negative}};
+}
+
+std::vector<Variable> plasticity_variables() {
+  return {{.name = "plastic_strain",
+           .unit = "1",
+           .text = "accumulated plastic strain I, the integral of |d eps_p|, eq. 23",
+           .scale = 1.0e-2,
+           .bounds = not_negative}};
+}
+
+std::vector<Variable> decohesion_variables() {
+  return {{.name = "decohesion",
+           .unit = "1",
+           .text = "decohesion lambda, eq. 13; 1 means separated",
+           .bounds = {0.0, 1.0}},
+          {.name = "opening_n",
+           .unit = "m",
+           .text = "normal opening of the decohesion plane, eq. 14",
+           .scale = 1.0e-6},
+          {.name = "opening_t",
+           .unit = "m",
+           .text = "tangential opening of the decohesion plane, eq. 14",
+           .parity = Parity::odd,
+           .scale = 1.0e-6},
+          {.name = "normal",
+           .unit = "1",
+           .text = "the normal of the decohesion plane; both components 0: hoop plane or intact",
+           .kind = Kind::vector,
+           .bounds = {-1.0, 1.0}},
+          {.name = "effective_length",
+           .unit = "m",
+           .text = "effective length L_e, eq. 12; 0 means not localised",
+           .scale = 1.0e-3,
+           .bounds = not_negative},
+          {.name = "cohesive_strength",
+           .unit = "Pa",
+           .text = "traction tau_np at the onset of decohesion, eq. 18",
+           .scale = 1.0e8,
+           .bounds = not_negative}};
+}
+
+}  // namespace vitrum

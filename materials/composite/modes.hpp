@@ -1,0 +1,283 @@
+#pragma once
+#include "materials/composite/composite.hpp"
+
+namespace vitrum {
+
+template <bool D, Yielding Y, bool C>
+EvolutionMode Composite<D, Y, C>::enter(CompositeState& s, const StrainPath& path,
+                                        PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  EvolutionMode mode;
+  // Traction that the error of earlier increments left on open faces would push them open and shut for ever.
+  // What it had stored is numerical error, and stays in the energy residual.
+  if constexpr (C)
+    if (is_separated(s)) relax_crack(s);
+  const double start = trace(s.elastic_strain);
+  mode.tension = start > 0.0 || (start == 0.0 && trace(path.strain) > 0.0);
+  if constexpr (C)
+    if (is_localised(s))
+      mode.plane = !is_separated(s) ? Plane::held : s.opening_n > 0.0 ? Plane::open : Plane::closed;
+  choose(mode, std::nullopt, s, path, 0.0, report);
+  return mode;
+}
+
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, CompositeState& s, const StrainPath& path,
+                               double fraction, PointReport& report) const {
+  using Plane = EvolutionMode::Plane;
+  switch (root) {
+    case Root::side:
+      mode.tension = !mode.tension;
+      break;
+    case Root::damage:
+      mode.damaging = true;
+      break;
+    case Root::exhausted:
+      s.crack_density = crack_density_limit;
+      mode.damaging = false;
+      break;
+    case Root::branch:
+      s.plastic_strain = mode.branch_end;
+      if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction);
+      break;
+    case Root::localisation:
+      localise(mode, s, fraction, report);
+      break;
+    case Root::snap_back:
+      if (mode.separated())
+        fall_at_constant_strain(mode, s, fraction, report);
+      else if (Y == Yielding::von_mises && mode.flowing && !snaps_back_alone(mode, s, path))
+        fall_with_plane(mode, s, fraction, report);
+      else
+        release_plane(mode, s, fraction, report);
+      break;
+    case Root::pull:
+      // The traction equals the strength: where what is left by shear does not, it is the strength that has
+      // vanished.
+      if (shear_carries_strength(mode, s))
+        mode.pulled = !mode.pulled;
+      else
+        separate_plane(mode, s, fraction, report);
+      break;
+    case Root::separation:
+      separate_plane(mode, s, fraction, report);
+      break;
+    case Root::closure:
+      s.opening_n = 0.0;
+      mode.plane = Plane::closed;
+      report.record(EventKind::closure, fraction);
+      break;
+    case Root::opening:
+      mode.plane = Plane::open;
+      break;
+    case Root::yield:
+    case Root::unload:
+    case Root::decohesion:
+    case Root::stall:
+    case Root::path_end:
+      break;
+  }
+  choose(mode, root, s, path, fraction, report);
+  if (root != Root::side) {
+    mode.sliding = false;
+  } else if (const double rate = trace(rates(mode, s, path).elastic_strain);
+             mode.tension ? rate < 0.0 : rate > 0.0) {
+    mode.tension = !mode.tension;
+    mode.sliding = true;
+    choose(mode, root, s, path, fraction, report);
+  }
+}
+
+/// Settles which laws act from here on, after the jumps that the state asks for.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, CompositeState& s,
+                                const StrainPath& path, double fraction, PointReport& report) const {
+  if constexpr (D) choose_damage(mode, s, path, fraction, report);
+  meet_surfaces(mode, s, fraction, report);
+  // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
+  constexpr int most_jumps = 8;
+  bool unloads = root == Root::unload, stalls = root == Root::stall, reached = root == Root::yield;
+  bool yields = reached || s.plastic_strain == 0.0;  // is what flows from here on an event?
+  for (int jumps = 0;; ++jumps) {
+    using Plane = EvolutionMode::Plane;
+    if ((mode.plane == Plane::held || mode.decohering()) && strength_is_spent(s, path)) {
+      separate_plane(mode, s, fraction, report);
+      unloads = stalls = reached = false;
+    }
+    const bool may_flow = !unloads && on_surface(mode, s, reached),
+               may_open = !stalls && at_strength(mode, s);
+    set_branch(mode, s);
+    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open);
+    if (yields && mode.flowing) report.record(EventKind::yield, fraction), yields = false;
+    if (reached && !mode.flowing) step_inside(mode, s);
+    if (jumps == most_jumps) {
+      // What still falls does so when the next increment begins.
+      mode.flowing = mode.flowing && !runs_away && !(Y == Yielding::von_mises && falls_through(mode, s));
+      return;
+    }
+    if constexpr (C) {
+      if (mode.plane == Plane::intact && localises(mode, s)) {
+        localise(mode, s, fraction, report);
+        continue;
+      }
+    }
+    if (!jump(mode, s, path, fraction, runs_away, report)) return;
+    unloads = stalls = reached = false;
+  }
+}
+
+/// Whether what strength the plane has is the error of the integration, or of rounding (it localised next to
+/// free of traction).
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::strength_is_spent(const CompositeState& s, const StrainPath& path) const {
+  return s.decohesion >= 1.0 - std::max(1e-12, 10.0 * path.tolerance) ||
+         s.cohesive_strength <= 1e-12 * elastic_.shear;
+}
+
+/// Performs the jump that the state asks for, if any.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::jump(EvolutionMode& mode, CompositeState& s, const StrainPath& path, double fraction,
+                              bool runs_away, PointReport& report) const {
+  if constexpr (C) {
+    if (runs_away) {
+      fall_with_plane(mode, s, fraction, report);
+      return true;
+    }
+    if (mode.decohering() && !mode.viscous && !rates(mode, s, path).advances()) {
+      release_plane(mode, s, fraction, report);
+      return true;
+    }
+  }
+  if constexpr (Y == Yielding::von_mises) {
+    if (mode.flowing && falls_through(mode, s)) {
+      fall_at_constant_strain(mode, s, fraction, report);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Rate and coefficient of eq. 7 on this side, and whether the crack density grows.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, CompositeState& s, const StrainPath& path,
+                                       double fraction, PointReport& report) const {
+  const double change = trace(path.strain);
+  const bool can = mode.plane == EvolutionMode::Plane::intact && mode.tension;
+  if (!can) {
+    mode.damaging = false;
+    return;
+  }
+  if (change > 0.0 && path.duration > 0.0) s.max_rate = std::max(s.max_rate, change / (3.0 * path.duration));
+  mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
+  const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
+  const bool reached = mode.damaging || target >= s.crack_density * (1.0 - 1e-12);
+  const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
+  if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction);
+  mode.damaging = grows;
+}
+
+/// Whether the stress is not inside the yield surface, rounding aside.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::is_near_surface(const EvolutionMode& mode, const CompositeState& s) const {
+  if constexpr (has_yield) {
+    if (!surface_acts(mode.tension)) return false;
+    const Moduli m = secant(mode.tension, s.crack_density);
+    return yield_function(s, m) >= -1e-9 * m.shear * norm(deviator(s.elastic_strain));
+  } else {
+    return false;
+  }
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const CompositeState& s, bool reached) const {
+  return surface_acts(mode.tension) && (reached || mode.flowing || is_near_surface(mode, s));
+}
+
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::at_strength(const EvolutionMode& mode, const CompositeState& s) const {
+  if constexpr (C) {
+    using Plane = EvolutionMode::Plane;
+    if (mode.plane != Plane::held && mode.plane != Plane::decohering) return false;
+    const Moduli m = secant(mode.tension, s.crack_density);
+    const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
+    const double N = decohesion_.effective_traction(t.normal, t.tangential);
+    return N > 0.0 &&
+           N >= decohesion_.strength(s.decohesion, s.cohesive_strength) - 1e-9 * s.cohesive_strength;
+  } else {
+    return false;
+  }
+}
+
+/// Hardening, softening or residual branch of the strength.
+template <bool D, Yielding Y, bool C>
+void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const CompositeState& s) const {
+  if constexpr (Y == Yielding::von_mises) {
+    mode.hardening_modulus = von_mises_.modulus(s.plastic_strain);
+    mode.branch_end = s.plastic_strain < von_mises_.peak_strain() ? von_mises_.peak_strain()
+                      : s.plastic_strain < von_mises_.floor_strain()
+                          ? von_mises_.floor_strain()
+                          : std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Of flow and decohesion, those that go forward: both together, then each alone. True where neither can go
+/// on alone, and both together only backwards along the path: each drives the other, faster than the path
+/// does.
+template <bool D, Yielding Y, bool C>
+bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const CompositeState& s, const StrainPath& path,
+                                     bool may_flow, bool may_open) const {
+  using Plane = EvolutionMode::Plane;
+  if constexpr (C) {
+    mode.viscous = decohesion_.viscosity() > 0.0;
+    if (may_open) {
+      const Moduli m = secant(mode.tension, s.crack_density);
+      const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
+      if (mode.plane == Plane::held) mode.pulled = t.normal > 0.0;
+    }
+    if (mode.plane == Plane::held || mode.plane == Plane::decohering)
+      mode.plane = may_open ? Plane::decohering : Plane::held;
+  }
+  bool opens_alone = false;
+  if constexpr (C) {
+    if (may_open) {
+      // The elastic material behind the plane drives it beyond what it can bear: it snaps back whether or not
+      // the material flows.
+      mode.flowing = false;
+      const EvolutionRates alone = rates(mode, s, path);
+      opens_alone = alone.decohesion > 0.0;
+      if (opens_alone && !alone.advances()) return false;
+    }
+  }
+  mode.flowing = may_flow;
+  if constexpr (has_yield || C) {
+    if (mode.flowing && Y == Yielding::von_mises && falls_through(mode, s)) {
+      if (mode.decohering()) mode.plane = Plane::held;  // the fall comes first
+      return false;
+    }
+    if (mode.flowing && mode.decohering()) {
+      const EvolutionRates together = rates(mode, s, path);
+      const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
+      // Otherwise one goes on and relieves the other.
+      if (together.advances() && opens && flows) return false;
+      if (opens && !together.advances()) {
+        // What flows behind the plane drives it beyond what it can bear, too.
+        if (snaps_back_alone(mode, s, path)) return mode.flowing = false;
+        if (Y == Yielding::von_mises && flows) return true;
+      }
+      // Where either would relieve the other the plane opens: after the localisation the discrete law acts.
+      const bool opening_relieves = opens_alone && !flows;
+      EvolutionMode flow_alone = mode;
+      flow_alone.plane = Plane::held;
+      if (!opening_relieves && !opens && rates(flow_alone, s, path).plastic_strain > 0.0)
+        mode.plane = Plane::held;
+      else
+        mode.flowing = false;
+    }
+    const EvolutionRates r = rates(mode, s, path);
+    if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
+    if (mode.flowing && !(r.plastic_strain > 0.0)) mode.flowing = false;
+  }
+  return false;
+}
+
+}  // namespace vitrum

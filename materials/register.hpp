@@ -1,0 +1,37 @@
+#pragma once
+#include <utility>
+
+#include "materials/batch.hpp"
+#include "materials/registry.hpp"
+
+namespace vitrum {
+
+/// The row of a law in the registry. Besides what Batch asks of it, the law has
+///
+///     struct Parameters { ...; static std::span<const ParameterInfo<Parameters>> describe(); };
+///     Law(const ElasticParameters& elastic, const Parameters& parameters, double cell);
+///     static std::vector<Variable> all_variables();
+template <class Law>
+RegisteredLaw law(std::string table, std::string text) {
+  using Parameters = typename Law::Parameters;
+  RegisteredLaw entry{std::move(table), std::move(text), {}, Law::all_variables(), {}};
+  for (const ParameterInfo<Parameters>& info : Parameters::describe())
+    entry.parameters.push_back(
+        {info.name, info.unit, info.fallback, info.bounds, info.description, info.list != nullptr});
+  entry.make = [](const MaterialParameters& material, double cell) -> std::shared_ptr<const Material> {
+    Parameters parameters;
+    const std::vector<std::vector<double>>& values = material.law->values;
+    std::size_t k = 0;
+    for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
+      const std::vector<double>& value = values[k++];
+      if (info.list != nullptr)
+        parameters.*info.list = value;
+      else
+        parameters.*info.member = value.front();
+    }
+    return std::make_shared<Batch<Law>>(material, Law(material.elastic, parameters, cell));
+  };
+  return entry;
+}
+
+}  // namespace vitrum

@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "materials/law.hpp"
+
+namespace vitrum {
+
+/// A key of a law's table: a ParameterInfo whose member is its place in the table.
+struct ParameterRow {
+  std::string_view name, unit;
+  std::optional<double> fallback;
+  Bounds bounds;
+  std::string_view description;
+  bool is_list;
+};
+
+/// A law that a scene names by the table [material.NAME.TABLE] instead of the composite's models.
+struct RegisteredLaw {
+  std::string table;
+  std::string text;  ///< what it is, a sentence for the scene reference
+  std::vector<ParameterRow> parameters;
+  std::vector<Variable> variables;  ///< all that it may store
+  /// Of parameters.law. cell: side of the grid cells, m.
+  std::function<std::shared_ptr<const Material>(const MaterialParameters& parameters, double cell)> make;
+};
+
+/// All laws but the composite, which is what a material is made of without one of these.
+std::span<const RegisteredLaw> registered_laws();
+/// The law of a table; null: there is none.
+const RegisteredLaw* find_law(std::string_view table);
+
+/// Every column that some material may store, by the first law that has it: the composite's models, then the
+/// registered laws, then `dissipated`.
+std::span<const Component> all_columns();
+
+}  // namespace vitrum
