@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <stdexcept>
 #include <type_traits>
 
 #include "materials/law_state.hpp"
@@ -37,14 +38,14 @@ inline constexpr std::size_t elastic_run = 64;
 /// 1 for increments that are more than elastic, else 0 (numbers are vectorised, truth values are not).
 using InelasticMarks = std::array<double, elastic_run>;
 
-/// Stress and energy of elastic increments may depend on one variable besides the strain, of the column
-/// `elastic_column` (negative: none), and no variable changes. keeps_direction: where increments are elastic,
-/// vectors and tensors are stored that must turn with the particle.
+/// Elastic increments change no variable, and turn none: a law that stores vectors or tensors marks every
+/// point where they are not zero (`marks_directions`). Stress and energy may depend on one variable besides
+/// the strain, that of the column `elastic_column` (negative: on none).
 template <class Law>
 concept RunsElastically = requires(const Law& law, const ParticleColumns& p, InelasticMarks& marks,
                                    const SymmetricTensor& strain) {
   { Law::elastic_column } -> std::convertible_to<int>;
-  { Law::keeps_direction } -> std::convertible_to<bool>;
+  { Law::marks_directions } -> std::convertible_to<bool>;
   { law.mark_inelastic(p, std::size_t{}, std::size_t{}, 0.0, marks) } -> std::same_as<bool>;
   { law.elastic_stress(strain, 0.0) } -> std::same_as<SymmetricTensor>;
   { law.elastic_energy(strain, 0.0) } -> std::same_as<double>;
@@ -64,7 +65,9 @@ class Batch final : public Material {
   Batch(const MaterialParameters& parameters, Law law)
       : Material(parameters, law.variables(), dissipative, stress_columns_of(law), damage_column_of(law)),
         law_(std::move(law)),
-        wave_speed_(std::sqrt(law_.elastic().p_wave() / density())) {}
+        wave_speed_(std::sqrt(law_.elastic().p_wave() / density())) {
+    require_described();
+  }
 
   const Law& law() const { return law_; }
   double wave_speed() const override { return wave_speed_; }
@@ -136,6 +139,26 @@ class Batch final : public Material {
       return true;
   }();
 
+  static Kind kind_of(double) { return Kind::scalar; }
+  static Kind kind_of(const PlaneVector&) { return Kind::vector; }
+  static Kind kind_of(const SymmetricTensor&) { return Kind::symmetric; }
+  /// Throws std::logic_error where what the law stores is not what it says that it stores.
+  void require_described() const {
+    const std::vector<Variable> described = law_.variables();
+    std::size_t n = 0;
+    bool same = true;
+    const State s;
+    law_.members(s, [&](const auto& member) {
+      same = same && n < described.size() && described[n].kind == kind_of(member);
+      ++n;
+    });
+    if constexpr (runs)
+      for (const Variable& v : described) same = same && (v.kind == Kind::scalar || Law::marks_directions);
+    if (!same || n != described.size())
+      throw std::logic_error("material '" + parameters().name +
+                             "': its variables are not those of its state");
+  }
+
   static std::vector<std::size_t> stress_columns_of(const Law& law) {
     if constexpr (runs) {
       return Law::elastic_column < 0 ? std::vector<std::size_t>{}
@@ -187,7 +210,6 @@ class Batch final : public Material {
   TangentEntries tangent(const State& start, const SymmetricTensor& strain, double duration) const;
   template <bool small>
   double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
-  void turn_variables(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   void store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_inelastic(const ParticleColumns& p, std::size_t i, State& s, double duration,
@@ -227,19 +249,6 @@ double Batch<Law>::take_elastic_turning(const ParticleColumns& p, std::size_t be
   return stored;
 }
 
-/// Vectors and tensors of elastic increments turn with their particles.
-template <class Law>
-void Batch<Law>::turn_variables(const ParticleColumns& p, std::size_t begin, std::size_t end) const {
-  if (p.variables.empty()) return;
-  State s;
-  for (std::size_t i = begin; i < end; ++i) {
-    load(p, i, s);
-    const Rotation by = rotation_by(p.spin_increment[i]);
-    law_.members(s, [&](auto& member) { turn(member, by); });
-    store_variables(s, p, i);
-  }
-}
-
 /// Stress at the end of increments that stayed elastic.
 template <class Law>
 void Batch<Law>::store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const {
@@ -262,7 +271,6 @@ double Batch<Law>::take_elastic(const ParticleColumns& p, std::size_t begin, std
     for (std::size_t i = first; i < last; ++i) largest = std::max(largest, std::abs(spin[i]));
     stored += largest <= small_angle ? take_elastic_turning<true>(p, first, last)
                                      : take_elastic_turning<false>(p, first, last);
-    if constexpr (Law::keeps_direction) turn_variables(p, first, last);
     if (p.stress[0] != nullptr) store_elastic_stress(p, first, last);
   }
   return stored;

@@ -58,9 +58,9 @@ class Composite final : public EventDriven {
   }
   const EventDriven* event_driven() const { return this; }
 
-  // Elastic runs: the moduli depend on the crack density; a plane is never elastic here.
+  // Elastic runs: the moduli depend on the crack density; a point with a plane is never elastic.
   static constexpr int elastic_column = has_damage ? 0 : -1;
-  static constexpr bool keeps_direction = false;
+  static constexpr bool marks_directions = true;
   bool mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
                       InelasticMarks& marks) const;
   VITRUM_INLINE SymmetricTensor elastic_stress(const SymmetricTensor& e, double crack_density) const {

@@ -1,0 +1,389 @@
+// What must hold of every law behind the door, whoever wrote it.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "catch.hpp"
+#include "support/law_samples.hpp"
+#include "support/local_solvers.hpp"
+#include "support/random_states.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+/// One particle of 1 m^3 in columns.
+class Particle {
+ public:
+  explicit Particle(const Material& material)
+      : material_(material), variables_(material.columns().size()), mass_(material.density()) {
+    const PointState start = material.start({});
+    for (std::size_t k = 0; k < variables_.size(); ++k) variables_[k] = value_of(material, start, k);
+  }
+
+  void advance(const SymmetricTensor& strain, double spin, double duration, BatchReport& report) {
+    ParticleColumns c;
+    for (std::size_t k = 0; k < 4; ++k)
+      c.start_strain[k] = c.elastic_strain[k] = &strain_[k], c.stress[k] = &stress_[k];
+    for (double& v : variables_) c.start_variables.push_back(&v), c.variables.push_back(&v);
+    c.strain_increment = {&strain.rr, &strain.zz, &strain.tt, &strain.rz};
+    c.spin_increment = &spin, c.mass = &mass_;
+    material_.advance(c, 0, 1, duration, nullptr, report);
+  }
+  SymmetricTensor stress() const { return {stress_[0], stress_[1], stress_[2], stress_[3]}; }
+  const std::vector<double>& variables() const { return variables_; }
+  bool same_bits(const Particle& o) const {
+    return std::memcmp(strain_, o.strain_, sizeof strain_) == 0 &&
+           std::memcmp(stress_, o.stress_, sizeof stress_) == 0 &&
+           std::memcmp(variables_.data(), o.variables_.data(), variables_.size() * sizeof(double)) == 0;
+  }
+  void reload(const Particle& stored) {
+    std::copy(std::begin(stored.strain_), std::end(stored.strain_), strain_);
+    variables_ = stored.variables_;
+  }
+
+ private:
+  const Material& material_;
+  double strain_[4] = {}, stress_[4] = {};
+  std::vector<double> variables_;
+  double mass_;
+};
+
+/// Increments of a wandering path, and how long each takes.
+struct Wandering {
+  std::vector<SymmetricTensor> increments;
+  double duration;
+};
+Wandering wandering(Random& random, const LawSample& law, int pieces, int steps) {
+  Wandering path{{}, law.strain / (law.rate * steps)};
+  for (int piece = 0; piece < pieces; ++piece) {
+    const SymmetricTensor increment = (law.strain * random.uniform(0.3, 1.0) / steps) * random.direction();
+    path.increments.insert(path.increments.end(), static_cast<std::size_t>(steps), increment);
+  }
+  return path;
+}
+
+/// Variables as one turned or mirrored by the rules of their kinds.
+std::vector<double> turned(const Material& material, const std::vector<double>& values, const Rotation& by) {
+  std::vector<double> result = values;
+  std::size_t k = 0;
+  for (const Variable& v : material.variables()) {
+    if (v.kind == Kind::vector) {
+      const PlaneVector a = rotate(PlaneVector{values[k], values[k + 1]}, by);
+      result[k] = a.r, result[k + 1] = a.z;
+    } else if (v.kind == Kind::symmetric) {
+      const SymmetricTensor a =
+          rotate(SymmetricTensor{values[k], values[k + 1], values[k + 2], values[k + 3]}, by);
+      result[k] = a.rr, result[k + 1] = a.zz, result[k + 2] = a.tt, result[k + 3] = a.rz;
+    }
+    k += component_count(v.kind);
+  }
+  return result;
+}
+
+void require_same_variables(const Material& material, const std::vector<double>& found,
+                            const std::vector<double>& expected) {
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    CAPTURE(material.columns()[k].name);
+    REQUIRE(found[k] ==
+            Approx(expected[k]).epsilon(1e-8).margin(1e-9 * std::abs(material.columns()[k].scale)));
+  }
+}
+
+struct Ends {
+  PointState state;
+  double work = 0.0, dissipated = 0.0, least = 0.0;
+};
+/// Follows a path of straight pieces in `steps` increments each. Work by the trapezoidal rule, J/m^3.
+Ends follow(const LawSample& law, const std::vector<SymmetricTensor>& pieces, int steps,
+            PointIntegrator* integrator = nullptr) {
+  Ends ends{law.material->start({})};
+  for (const SymmetricTensor& piece : pieces)
+    for (int i = 0; i < steps; ++i) {
+      const SymmetricTensor increment = (1.0 / steps) * piece, before = ends.state.stress;
+      const double duration = norm(increment) / law.rate;
+      PointReport report;
+      if (integrator != nullptr)
+        integrator->integrate(*law.material, ends.state, increment, duration, report);
+      else
+        law.material->advance(ends.state, increment, duration, report);
+      REQUIRE(report.cause == "");
+      ends.work += contract(0.5 * (before + ends.state.stress), increment);
+      ends.dissipated += report.dissipation.total();
+      ends.least = std::min(ends.least, report.dissipation.total());
+    }
+  return ends;
+}
+std::vector<SymmetricTensor> random_pieces(Random& random, const LawSample& law, int count) {
+  std::vector<SymmetricTensor> pieces;
+  for (int i = 0; i < count; ++i)
+    pieces.push_back(law.strain * random.uniform(0.3, 1.0) * random.direction());
+  return pieces;
+}
+
+bool is_finite(const SymmetricTensor& a) {
+  return std::isfinite(a.rr + a.zz + a.tt + a.rz);
+}
+
+}  // namespace
+
+TEST_CASE("every registered law has a sample", "[material][conformance]") {
+  for (const RegisteredLaw& law : registered_laws()) {
+    INFO("tests/support/law_samples.hpp lacks parameters of '" << law.table << "'");
+    CHECK(registered_samples().contains(law.table));
+  }
+}
+
+TEST_CASE("a law starts within its bounds, at the stress that it is given", "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    const Material& material = *law.material;
+    for (const Component& c : material.columns()) CHECK(c.bounds.contain(c.initial));
+    const SymmetricTensor stress = 1e-2 * law.strain * material.density() * material.wave_speed() *
+                                   material.wave_speed() * SymmetricTensor{-1.0, -0.8, -0.9, 0.1};
+    const PointState s = material.start(stress);
+    CHECK(norm(material.stress(s) - stress) <= 1e-9 * norm(stress));
+    for (std::size_t k = 0; k < material.columns().size(); ++k)
+      CHECK(value_of(material, s, k) == material.columns()[k].initial);
+    CHECK(material.strain_scale() > 0.0);
+  }
+}
+
+TEST_CASE("a law is objective: what it stores turns with the particle", "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(211);
+    Particle still(*law.material), turning(*law.material);
+    BatchReport a, b;
+    double angle = 0.0;
+    const Wandering path = wandering(random, law, 8, 10);
+    for (const SymmetricTensor& increment : path.increments) {
+      const double spin = random.uniform(-0.5, 0.5);
+      still.advance(increment, 0.0, path.duration, a);
+      turning.advance(rotate(increment, rotation_by(angle)), spin, path.duration, b);
+      angle += spin;
+      const Rotation now = rotation_by(angle);
+      REQUIRE(norm(rotate(still.stress(), now) - turning.stress()) <= 1e-8 * (norm(still.stress()) + 1e3));
+      require_same_variables(*law.material, turning.variables(),
+                             turned(*law.material, still.variables(), now));
+    }
+    CHECK(a.elastic == Approx(b.elastic).epsilon(1e-8));
+    CHECK(a.dissipated.total() == Approx(b.dissipated.total()).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("a mirror changes the signs that kinds and parities tell", "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(212);
+    Particle here(*law.material), image(*law.material);
+    BatchReport report;
+    const Wandering path = wandering(random, law, 8, 10);
+    for (const SymmetricTensor& increment : path.increments) {
+      SymmetricTensor mirrored = increment;
+      mirrored.rz = -mirrored.rz;
+      const double spin = random.uniform(-0.1, 0.1);
+      here.advance(increment, spin, path.duration, report);
+      image.advance(mirrored, -spin, path.duration, report);
+      SymmetricTensor stress = here.stress();
+      stress.rz = -stress.rz;
+      REQUIRE(norm(stress - image.stress()) <= 1e-8 * (norm(stress) + 1e3));
+      std::vector<double> expected = here.variables();
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        if (law.material->columns()[k].flips) expected[k] = -expected[k];
+      require_same_variables(*law.material, image.variables(), expected);
+    }
+  }
+}
+
+TEST_CASE("where nothing dissipates the stress is the derivative of the stored energy",
+          "[material][conformance][energy]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(213);
+    const Material& material = *law.material;
+    int tried = 0;
+    for (int sample = 0; sample < 100; ++sample) {
+      const PointState at = follow(law, random_pieces(random, law, 2), 4).state;
+      const SymmetricTensor step = 1e-5 * law.strain * random.direction();
+      PointState ahead = at, behind = at;
+      PointReport report;
+      // In no time, in which viscous laws do nothing.
+      material.advance(ahead, step, 0.0, report);
+      material.advance(behind, -1.0 * step, 0.0, report);
+      if (report.dissipation.total() != 0.0) continue;
+      ++tried;
+      const double change = material.stored_energy(ahead) - material.stored_energy(behind);
+      const double stiffness = material.density() * material.wave_speed() * material.wave_speed();
+      REQUIRE(change == Approx(contract(ahead.stress + behind.stress, step))
+                            .margin(1e-6 * stiffness * law.strain * norm(step)));
+    }
+    CHECK(tried >= 10);
+  }
+}
+
+TEST_CASE("work is what is stored and dissipated, and dissipation is never negative",
+          "[material][conformance][energy]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(214);
+    double coarse = 0.0, fine = 0.0, scale = 0.0;
+    for (int sample = 0; sample < 20; ++sample) {
+      const auto pieces = random_pieces(random, law, 3);
+      const auto lost = [&](int steps) {
+        const Ends e = follow(law, pieces, steps);
+        REQUIRE(e.least >= -1e-12 * (e.dissipated + e.work));
+        scale += std::abs(e.work);
+        return std::abs(e.work - law.material->stored_energy(e.state) - e.dissipated);
+      };
+      coarse += lost(16), fine += lost(256);
+    }
+    CAPTURE(coarse, fine, scale);
+    // First order of the trapezoidal rule at kinks and of implicit returns.
+    CHECK(fine <= 0.15 * coarse + 1e-9 * scale);
+    CHECK(fine <= 0.01 * scale);
+  }
+}
+
+TEST_CASE("shorter increments approach one result", "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(215);
+    double coarse = 0.0, fine = 0.0, scale = 0.0;
+    for (int sample = 0; sample < 20; ++sample) {
+      const auto pieces = random_pieces(random, law, 3);
+      const SymmetricTensor limit = follow(law, pieces, 512).state.stress;
+      coarse += norm(follow(law, pieces, 4).state.stress - limit);
+      fine += norm(follow(law, pieces, 32).state.stress - limit);
+      scale += norm(limit);
+    }
+    CAPTURE(coarse, fine, scale);
+    CHECK(fine <= 0.25 * coarse + 1e-9 * scale);
+    CHECK(fine <= 0.05 * scale);
+  }
+}
+
+TEST_CASE("the tangent is the slope of the response", "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(216);
+    const Material& material = *law.material;
+    int compared = 0;
+    for (int sample = 0; sample < 100; ++sample) {
+      const PointState at = follow(law, random_pieces(random, law, 2), 4).state;
+      const SymmetricTensor increment = 0.1 * law.strain * random.direction(), direction = random.direction();
+      const double duration = norm(increment) / law.rate, h = 1e-5 * law.strain;
+      const auto stress_at = [&](double f) {
+        PointState s = at;
+        PointReport report;
+        material.advance(s, increment + f * direction, duration, report);
+        return s.stress;
+      };
+      const SymmetricTensor ahead = stress_at(h) - stress_at(0.0), behind = stress_at(0.0) - stress_at(-h);
+      const double stiffness = material.density() * material.wave_speed() * material.wave_speed();
+      if (norm(ahead - behind) > 1e-3 * stiffness * h) continue;  // a kink within the stencil
+      const TangentEntries T = material.tangent(at, increment, duration);
+      const std::array<double, 4> d{direction.rr, direction.zz, direction.tt, direction.rz};
+      std::array<double, 4> slope{};
+      for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t c = 0; c < 4; ++c) slope[row] += T[4 * row + c] * d[c];
+      const SymmetricTensor found{slope[0], slope[1], slope[2], slope[3]};
+      REQUIRE(norm(found - (0.5 / h) * (ahead + behind)) <= 2e-3 * stiffness);
+      ++compared;
+    }
+    CHECK(compared >= 50);
+  }
+}
+
+TEST_CASE("a law keeps nothing but its columns: it goes on to the bit from what was stored",
+          "[material][conformance]") {
+  const std::vector<LawSample> laws = law_samples(), others = law_samples();
+  for (std::size_t n = 0; n < laws.size(); ++n) {
+    CAPTURE(laws[n].name);
+    Random random(217);
+    Particle all(*laws[n].material), later(*others[n].material);
+    BatchReport report;
+    const Wandering path = wandering(random, laws[n], 4, 10);
+    for (std::size_t i = 0; i < path.increments.size(); ++i) {
+      const double spin = random.uniform(-0.1, 0.1);
+      if (i == path.increments.size() / 2) later.reload(all);
+      all.advance(path.increments[i], spin, path.duration, report);
+      if (i >= path.increments.size() / 2) {
+        later.advance(path.increments[i], spin, path.duration, report);
+        REQUIRE(later.same_bits(all));
+      }
+    }
+  }
+}
+
+TEST_CASE("stress of columns, of a point, and of an increment that is tried are one",
+          "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(218);
+    const Material& material = *law.material;
+    for (int sample = 0; sample < 20; ++sample) {
+      const PointState s = follow(law, random_pieces(random, law, 3), 4).state;
+      double stress[4];
+      VariableColumns<const double*> variables;
+      variables.resize(material.columns().size());
+      for (std::size_t k = 0; k < variables.size(); ++k) variables[k] = nullptr;
+      std::vector<double> values(material.columns().size());
+      for (const std::size_t k : material.stress_columns())
+        values[k] = value_of(material, s, k), variables[k] = &values[k];
+      const SymmetricTensor& e = s.elastic_strain;
+      material.stress({&e.rr, &e.zz, &e.tt, &e.rz}, variables, 1,
+                      {&stress[0], &stress[1], &stress[2], &stress[3]});
+      const SymmetricTensor of_columns{stress[0], stress[1], stress[2], stress[3]};
+      REQUIRE(norm(of_columns - s.stress) <= 1e-12 * (norm(s.stress) + 1.0));
+      REQUIRE(norm(material.stress(s) - s.stress) <= 1e-12 * (norm(s.stress) + 1.0));
+    }
+  }
+}
+
+TEST_CASE("no increment in no time changes nothing, and what is not a number shows",
+          "[material][conformance]") {
+  for (const LawSample& law : law_samples()) {
+    CAPTURE(law.name);
+    Random random(219);
+    for (int sample = 0; sample < 20; ++sample) {
+      const PointState s = follow(law, random_pieces(random, law, 3), 4).state;
+      PointState same = s;
+      PointReport report;
+      law.material->advance(same, {}, 0.0, report);
+      REQUIRE(norm(same.stress - s.stress) <= 1e-9 * norm(s.stress));
+      REQUIRE(report.dissipation.total() <= 1e-9 * (s.dissipated + 1.0));
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      for (const SymmetricTensor& bad :
+           {SymmetricTensor{nan, 0.0, 0.0, 0.0}, SymmetricTensor{0.0, 0.0, 0.0, nan},
+            SymmetricTensor{nan, nan, nan, nan}}) {
+        PointState wrong = s;
+        report.clear();
+        law.material->advance(wrong, bad, 1e-7, report);
+        REQUIRE((report.failed() || !is_finite(wrong.stress)));
+      }
+    }
+  }
+}
+
+TEST_CASE("the closed form is what the solvers of the law's ODE approach", "[material][conformance]") {
+  int compared = 0;
+  for (const LawSample& law : law_samples()) {
+    if (law.material->event_driven() == nullptr) continue;
+    CAPTURE(law.name);
+    Random random(220);
+    for (int sample = 0; sample < 5; ++sample) {
+      const auto pieces = random_pieces(random, law, 2);
+      const SymmetricTensor closed = follow(law, pieces, 400).state.stress;
+      for (const LocalSolver& solver : solvers(1e-7)) {
+        CAPTURE(solver.name, sample);
+        const SymmetricTensor solved = follow(law, pieces, 10, solver.integrator.get()).state.stress;
+        REQUIRE(norm(solved - closed) <= 0.02 * norm(closed));
+        ++compared;
+      }
+    }
+  }
+  CHECK(compared > 0);
+}
