@@ -24,46 +24,46 @@ class Bundle {
 
  private:
   sundials::Context context_;
-  std::array<std::array<std::unique_ptr<CvodeSolver>, ModeProblem::capacity + 1>, 2> solvers_;
+  std::array<std::array<std::unique_ptr<CvodeSolver>, ModeEquations::most_unknowns + 1>, 2> solvers_;
 };
 
 class ModeSystem final : public sundials::OdeSystem {
  public:
-  explicit ModeSystem(const ModeProblem& problem) : problem_(problem) {}
+  explicit ModeSystem(const ModeEquations& equations) : equations_(equations) {}
 
-  bool rates(double t, const double* y, double* out) override { return problem_.rates(t, y, out); }
-  bool has_jacobian() const override { return problem_.has_jacobian(); }
-  void jacobian(double t, const double* y, double* columns) override { problem_.jacobian(t, y, columns); }
+  bool rates(double t, const double* y, double* out) override { return equations_.rates(t, y, out); }
+  bool has_jacobian() const override { return equations_.has_jacobian(); }
+  void jacobian(double t, const double* y, double* columns) override { equations_.jacobian(t, y, columns); }
   void roots(double t, const double* y, double* values) override {
-    EventFunctions g;
-    problem_.events(t, y, g);
+    Guards g;
+    equations_.guards(t, y, g);
     std::fill(values, values + CvodeSolver::roots, -1.0);
     std::copy(g.value.begin(), g.value.begin() + static_cast<std::ptrdiff_t>(g.count), values);
   }
-  Root root(double t, const double* y, int index) const {
-    EventFunctions g;
-    problem_.events(t, y, g);
-    return g.root[static_cast<std::size_t>(index)];
+  Guard guard(double t, const double* y, int index) const {
+    Guards g;
+    equations_.guards(t, y, g);
+    return g.guard[static_cast<std::size_t>(index)];
   }
 
  private:
-  const ModeProblem& problem_;
+  const ModeEquations& equations_;
 };
 
 }  // namespace
 
-bool Cvode::solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) {
+bool Cvode::solve(const ModeEquations& equations, double* y, Stop& stop, PointReport& report) {
   static thread_local Bundle bundle;
-  ModeSystem system(problem);
-  const std::size_t n = problem.size();
-  std::array<double, ModeProblem::capacity> start{};
+  ModeSystem system(equations);
+  const std::size_t n = equations.size();
+  std::array<double, ModeEquations::most_unknowns> start{};
   std::copy(y, y + n, start.begin());
-  const double whole = problem.parameter_end(), scale = problem.parameter_scale();
+  const double whole = equations.parameter_end(), scale = equations.parameter_scale();
   const CvodeMethod configured = family_ == CvodeFamily::bdf ? CvodeMethod::bdf : CvodeMethod::adams;
   // Adams with a fixed-point iteration would need steps of the relaxation time of a stiff mode.
-  const CvodeMethod first = problem.stiff() ? CvodeMethod::bdf : configured;
-  std::array<double, ModeProblem::capacity> absolute{};
-  problem.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
+  const CvodeMethod first = equations.stiff() ? CvodeMethod::bdf : configured;
+  std::array<double, ModeEquations::most_unknowns> absolute{};
+  equations.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
   struct Attempt {
     CvodeMethod method;
     double first_step, end;
@@ -83,9 +83,9 @@ bool Cvode::solve(const ModeProblem& problem, double* y, Stop& stop, PointReport
     if (!result.failed()) {
       stop.parameter = result.time;
       if (result.root >= 0)
-        stop.root = system.root(result.time, y, result.root);
+        stop.guard = system.guard(result.time, y, result.root);
       else if (a.end == whole)
-        stop.root = Root::path_end;
+        stop.guard = path_end;
       return true;
     }
     ++report.solver.failures;

@@ -15,7 +15,7 @@ class Cvode final : public PathFollower {
   Cvode(const LocalTolerance& tolerance, CvodeFamily family) : PathFollower(tolerance), family_(family) {}
 
  protected:
-  bool solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) override;
+  bool solve(const ModeEquations& equations, double* y, Stop& stop, PointReport& report) override;
 
  private:
   CvodeFamily family_;

@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
+
 #include "integrators/local/local_integrator.hpp"
-#include "integrators/local/mode_problem.hpp"
+#include "materials/event_driven.hpp"
 
 namespace vitrum {
 
@@ -23,18 +25,20 @@ class PathFollower : public LocalIntegrator {
                  double duration, PointReport& report) final;
 
  protected:
-  /// Where a solver stopped: at a root, at the end of the path (Root::path_end), or on the way (none).
+  /// Where a solver stopped: at a guard, at the end of the path (path_end), or on the way (none).
   struct Stop {
     double parameter = 0.0;
-    std::optional<Root> root;
+    std::optional<Guard> guard;
   };
   /// Takes y from the parameter 0 as far as it can. False: not at all, and report.cause says why. Called from
   /// several threads.
-  virtual bool solve(const ModeProblem& problem, double* y, Stop& stop, PointReport& report) = 0;
+  virtual bool solve(const ModeEquations& equations, double* y, Stop& stop, PointReport& report) = 0;
 
   const LocalTolerance& tolerance() const { return tolerance_; }
 
  private:
+  bool follow(Course& course, PointReport& report);
+
   LocalTolerance tolerance_;
 };
 

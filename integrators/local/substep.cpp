@@ -9,7 +9,7 @@
 namespace vitrum {
 namespace {
 
-constexpr int most_unknowns = static_cast<int>(ModeProblem::capacity);
+constexpr int most_unknowns = static_cast<int>(ModeEquations::most_unknowns);
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_unknowns, 1>;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_unknowns, most_unknowns>;
 
@@ -22,17 +22,17 @@ struct Step {
 
 class Stepper {
  public:
-  Stepper(const ModeProblem& problem, PointReport& report) : problem_(problem), report_(report) {}
+  Stepper(const ModeEquations& equations, PointReport& report) : equations_(equations), report_(report) {}
 
   Vector rates(double t, const Vector& y, bool& finite) {
     Vector f(y.size());
-    finite = problem_.rates(t, y.data(), f.data()) && finite;
+    finite = equations_.rates(t, y.data(), f.data()) && finite;
     ++report_.solver.right_hand_sides;
     return f;
   }
 
   Step take(double t, const Vector& y, const Vector& f0, double h) {
-    return problem_.stiff() ? rosenbrock(t, y, f0, h) : bogacki_shampine(t, y, f0, h);
+    return equations_.stiff() ? rosenbrock(t, y, f0, h) : bogacki_shampine(t, y, f0, h);
   }
 
  private:
@@ -65,8 +65,8 @@ class Stepper {
 
   Matrix jacobian(double t, const Vector& y, const Vector& f0, bool& finite) {
     Matrix J(y.size(), y.size());
-    if (problem_.has_jacobian()) {
-      problem_.jacobian(t, y.data(), J.data());
+    if (equations_.has_jacobian()) {
+      equations_.jacobian(t, y.data(), J.data());
       return J;
     }
     for (Eigen::Index j = 0; j < y.size(); ++j) {
@@ -78,7 +78,7 @@ class Stepper {
     return J;
   }
 
-  const ModeProblem& problem_;
+  const ModeEquations& equations_;
   PointReport& report_;
 };
 
@@ -87,65 +87,65 @@ class Stepper {
 /// they rise beyond where they began.
 class Watch {
  public:
-  explicit Watch(const ModeProblem& problem) : problem_(problem) {}
+  explicit Watch(const ModeEquations& equations) : equations_(equations) {}
 
   /// The mode begins at (t, y). step: short, with the rates there.
   void begin(double t, const Vector& y, const Vector& rates, double step) {
-    EventFunctions g, ahead;
-    problem_.events(t, y.data(), g);
+    Guards g, ahead;
+    equations_.guards(t, y.data(), g);
     const Vector next = y + step * rates;
-    problem_.events(t + step, next.data(), ahead);
+    equations_.guards(t + step, next.data(), ahead);
     for (std::size_t k = 0; k < g.count; ++k) {
       armed_[k] = g.value[k] < 0.0 || ahead.value[k] < g.value[k];
       beyond_[k] = std::max(0.0, g.value[k]);
     }
   }
   void arm(double t, const Vector& y) {
-    EventFunctions g;
-    problem_.events(t, y.data(), g);
+    Guards g;
+    equations_.guards(t, y.data(), g);
     for (std::size_t k = 0; k < g.count; ++k)
       if (g.value[k] < 0.0) armed_[k] = true, beyond_[k] = 0.0;
   }
-  /// The largest event function that counts at (t, y), over where it began, and its root when above zero.
+  /// The largest guard that counts at (t, y), over where it began, and that guard when above zero.
   struct Passed {
     double value = -1.0;
-    std::optional<Root> root;
+    std::optional<Guard> guard;
   };
   Passed passed(double t, const Vector& y) const {
-    EventFunctions g;
-    problem_.events(t, y.data(), g);
+    Guards g;
+    equations_.guards(t, y.data(), g);
     Passed p;
     for (std::size_t k = 0; k < g.count; ++k)
       if (const double value = g.value[k] - beyond_[k]; armed_[k] && value > p.value)
-        p = {value, value > 0.0 ? std::optional(g.root[k]) : std::nullopt};
+        p = {value, value > 0.0 ? std::optional(g.guard[k]) : std::nullopt};
     return p;
   }
 
  private:
-  const ModeProblem& problem_;
-  std::array<bool, EventFunctions::capacity> armed_{};
-  std::array<double, EventFunctions::capacity> beyond_{};
+  const ModeEquations& equations_;
+  std::array<bool, Guards::capacity> armed_{};
+  std::array<double, Guards::capacity> beyond_{};
 };
 
 }  // namespace
 
-bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointReport& report) {
+bool Substep::solve(const ModeEquations& equations, double* out, Stop& stop, PointReport& report) {
   constexpr int most_substeps = 200'000;
-  const auto n = static_cast<Eigen::Index>(problem.size());
+  const auto n = static_cast<Eigen::Index>(equations.size());
   Eigen::Map<Eigen::VectorXd> result(out, n);
-  Stepper stepper(problem, report);
+  Stepper stepper(equations, report);
   Vector y = result;
-  Watch watch(problem);
+  Watch watch(equations);
   bool finite = true;
   double t = 0.0;
   Vector f = stepper.rates(t, y, finite);
   Vector absolute(n);
-  problem.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
+  equations.absolute_tolerances(tolerance().relative, tolerance().absolute, absolute.data());
   const auto weighted = [&](const Vector& error, const Vector& at) {
     return (error.array().abs() / (tolerance().relative * at.array().abs() + absolute.array())).maxCoeff();
   };
-  const double end = problem.parameter_end();
-  const double longest = problem.parameter_scale(), shortest = 1e-15 * longest;
+  const double end = equations.parameter_end();
+  const double longest = equations.parameter_scale(), shortest = 1e-15 * longest;
   const double order = 3.0;  // of the local error estimate
   // A first step that moves no unknown by more than its tolerance allows for a constant second derivative.
   double h = longest * std::clamp(0.5 * std::cbrt(tolerance().relative), 1e-4, 0.5);
@@ -167,13 +167,13 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
         Eigen::Index worst = 0;
         if (step.finite) (step.error.array().abs()).maxCoeff(&worst);
         report.cause = fmt::format("the substep collapsed; the largest error is that of the {}",
-                                   problem.name(static_cast<std::size_t>(worst)));
+                                   equations.name(static_cast<std::size_t>(worst)));
         return false;
       }
       continue;
     }
     Watch::Passed now = watch.passed(t + h, step.end);
-    if (now.root) {
+    if (now.guard) {
       // Shorten the substep to the first event: bisection with secants (Illinois) on the largest event
       // function.
       double low = 0.0, high = h;
@@ -184,23 +184,23 @@ bool Substep::solve(const ModeProblem& problem, double* out, Stop& stop, PointRe
         if (k % 3 == 2 || !(middle > low && middle < high)) middle = 0.5 * (low + high);
         const Step trial = stepper.take(t, y, f, middle);
         const Watch::Passed there = watch.passed(t + middle, trial.end);
-        if (there.root)
+        if (there.guard)
           high = middle, at_high = there.value, now = there, landed = trial;
         else
           low = middle, at_low = std::min(there.value, -1e-300);
       }
       result = landed.end;
-      stop = {t + high, now.root};
+      stop = {t + high, now.guard};
       return true;
     }
     t = last ? end : t + h;
     y = step.end;
-    problem.settle(t, y.data());
+    equations.project(t, y.data());
     watch.arm(t, y);
     f = stepper.rates(t, y, finite);
     if (last) {
       result = y;
-      stop = {end, Root::path_end};
+      stop = {end, path_end};
       return true;
     }
     const double growth = error > 0.0 ? 0.9 * std::pow(error, -1.0 / order) : 5.0;

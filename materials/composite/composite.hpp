@@ -19,7 +19,7 @@ enum class Yielding { none, von_mises, drucker_prager };
 /// the increment. Within a leg the state after any fraction is closed-form (`follow`), so events are located
 /// by bisection and a leg of any length does not overshoot.
 template <bool has_damage, Yielding yielding, bool has_decohesion>
-class Composite final : public EventDriven {
+class Composite final : public CompositeModes {
  public:
   using State = CompositeState;
 
@@ -73,15 +73,15 @@ class Composite final : public EventDriven {
   // The same law as an ODE.
   CompositeState load(const PointState& point) const override { return load_state(*this, point); }
   void store(const CompositeState& s, PointState& point) const override { store_state(*this, s, point); }
-  EvolutionMode enter(CompositeState& state, const StrainPath& path, PointReport& report) const override;
+  EvolutionMode first_mode(CompositeState& state, const StrainPath& path, PointReport& report) const override;
   void leave(EvolutionMode& mode, Root root, CompositeState& state, const StrainPath& path, double fraction,
              PointReport& report) const override;
   EvolutionRates rates(const EvolutionMode& mode, const CompositeState& state,
                        const StrainPath& path) const override;
   OpeningJacobian opening_jacobian(const EvolutionMode& mode, const CompositeState& state,
                                    const StrainPath& path) const override;
-  void events(const EvolutionMode& mode, const CompositeState& state, const StrainPath& path,
-              EventFunctions& functions) const override;
+  void guards(const EvolutionMode& mode, const CompositeState& state, const StrainPath& path,
+              Guards& values) const override;
   void settle(const EvolutionMode& mode, CompositeState& state, const StrainPath& path) const override;
   Moduli virgin_moduli() const override { return elastic_; }
   double reference_opening() const override { return has_decohesion ? decohesion_.reference_opening() : 0.0; }

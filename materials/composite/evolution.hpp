@@ -5,18 +5,9 @@
 #include <optional>
 
 #include "materials/composite/state.hpp"
+#include "materials/event_driven.hpp"
 
-/// The laws of this folder as ordinary differential equations. Over an increment the strain runs along a
-/// straight line; the point is in one mode at a time, in which its rates are smooth; a mode ends at a root of
-/// one of its event functions.
 namespace vitrum {
-
-/// A straight strain path, followed by its fraction in [0, 1].
-struct StrainPath {
-  SymmetricTensor strain;  ///< whole increment
-  double duration = 0.0;   ///< s
-  double tolerance = 0.0;  ///< relative error with which the state along it is known
-};
 
 /// Which of the laws act. Frozen between events.
 struct EvolutionMode {
@@ -88,29 +79,19 @@ enum class Root : unsigned char {
   separation,    ///< lambda = 1
   closure,       ///< the gap vanishes
   opening,       ///< the contact traction vanishes
-  path_end,      ///< the path ends (added by the solvers where the fraction is an unknown)
 };
 
-/// The event functions of a mode, scaled to O(1): below zero inside the mode, crossing zero upwards where it
-/// ends.
-struct EventFunctions {
-  static constexpr std::size_t capacity = 12;
-  std::array<Root, capacity> root{};
-  std::array<double, capacity> value{};
-  std::size_t count = 0;
-
-  void add(Root r, double v) { root[count] = r, value[count++] = v; }
-};
-
-/// The laws of a material as an ODE between events.
-class EventDriven {
+/// The composite as an ODE between events, whatever its models.
+class CompositeModes : public EventDriven {
  public:
-  virtual ~EventDriven() = default;
+  Course& enter(CourseRoom& room, const PointState& point, const StrainPath& path,
+                PointReport& report) const final;
   virtual CompositeState load(const PointState& point) const = 0;
   virtual void store(const CompositeState& state, PointState& point) const = 0;
   /// The mode at the start of a path. Performs the jumps that the state asks for (snap-back, excess shear)
   /// and books them.
-  virtual EvolutionMode enter(CompositeState& state, const StrainPath& path, PointReport& report) const = 0;
+  virtual EvolutionMode first_mode(CompositeState& state, const StrainPath& path,
+                                   PointReport& report) const = 0;
   /// The mode after `root` ended `mode` at `fraction` of the path; performs the jumps and records the event.
   virtual void leave(EvolutionMode& mode, Root root, CompositeState& state, const StrainPath& path,
                      double fraction, PointReport& report) const = 0;
@@ -119,9 +100,9 @@ class EventDriven {
   /// d(rates)/d(state) of a plane that decoheres with a viscosity, without plastic flow.
   virtual OpeningJacobian opening_jacobian(const EvolutionMode& mode, const CompositeState& state,
                                            const StrainPath& path) const = 0;
-  /// Event functions of the mode.
-  virtual void events(const EvolutionMode& mode, const CompositeState& state, const StrainPath& path,
-                      EventFunctions& functions) const = 0;
+  /// Guards of the mode (by Root).
+  virtual void guards(const EvolutionMode& mode, const CompositeState& state, const StrainPath& path,
+                      Guards& values) const = 0;
   /// Drift correction: puts a state that was integrated with errors back onto the yield surface, the strength
   /// of the plane, and traction-free faces.
   virtual void settle(const EvolutionMode& mode, CompositeState& state, const StrainPath& path) const = 0;

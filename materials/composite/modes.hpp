@@ -4,8 +4,8 @@
 namespace vitrum {
 
 template <bool D, Yielding Y, bool C>
-EvolutionMode Composite<D, Y, C>::enter(CompositeState& s, const StrainPath& path,
-                                        PointReport& report) const {
+EvolutionMode Composite<D, Y, C>::first_mode(CompositeState& s, const StrainPath& path,
+                                             PointReport& report) const {
   using Plane = EvolutionMode::Plane;
   EvolutionMode mode;
   // Traction that the error of earlier increments left on open faces would push them open and shut for ever.
@@ -74,7 +74,6 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, CompositeState& s
     case Root::unload:
     case Root::decohesion:
     case Root::stall:
-    case Root::path_end:
       break;
   }
   choose(mode, root, s, path, fraction, report);

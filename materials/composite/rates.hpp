@@ -220,8 +220,8 @@ double Composite<D, Y, C>::damage_localisation(const CompositeState& s) const {
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::events(const EvolutionMode& mode, const CompositeState& s, const StrainPath& path,
-                                EventFunctions& g) const {
+void Composite<D, Y, C>::guards(const EvolutionMode& mode, const CompositeState& s, const StrainPath& path,
+                                Guards& g) const {
   g.count = 0;
   const Moduli m = secant(mode.tension, s.crack_density);
   const double size = norm(path.strain), per_size = size > 0.0 ? 1.0 / size : 0.0;

@@ -70,7 +70,7 @@ class CompositeMaterial {
     if (trace(s.elastic_strain) > 0.0) m.bulk = damaged.bulk;
     return m;
   }
-  const EventDriven& modes() const { return *door_->event_driven(); }
+  const CompositeModes& modes() const { return dynamic_cast<const CompositeModes&>(*door_->event_driven()); }
 
  private:
   PointState point(const CompositeState& s) const {

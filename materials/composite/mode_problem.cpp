@@ -1,4 +1,4 @@
-#include "integrators/local/mode_problem.hpp"
+#include "materials/composite/mode_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,9 @@ ModeProblem::Values ModeProblem::rate_values(const EvolutionRates& r) {
   return v;
 }
 
-ModeProblem::ModeProblem(const EventDriven& material, const EvolutionMode& mode, const StrainPath& path,
+ModeProblem::ModeProblem(const CompositeModes& law, const EvolutionMode& mode, const StrainPath& path,
                          const CompositeState& state, double fraction)
-    : material_(material),
+    : law_(law),
       mode_(mode),
       path_(path),
       start_(state),
@@ -38,7 +38,7 @@ ModeProblem::ModeProblem(const EventDriven& material, const EvolutionMode& mode,
       start_values_(state_values(state)) {
   constexpr double nothing = 1.0e-100;  // keeps the scales of a point at rest off zero
   const double change = std::max(norm(path.strain), nothing), strain = norm(state.elastic_strain) + change;
-  const double energy = material.virgin_moduli().p_wave() * strain * change;  // work of the increment
+  const double energy = law.virgin_moduli().p_wave() * strain * change;  // work of the increment
   if (mode.flowing) {
     // Strength is a matter of the deviator (and of pressure, where that gives it): were its parts unknowns
     // together with the pressure, an error relative to them could be many times a strength that is small.
@@ -51,7 +51,7 @@ ModeProblem::ModeProblem(const EventDriven& material, const EvolutionMode& mode,
   if (mode.damaging) add(crack_density, crack_density_limit), add(damage, energy);
   if (mode.decohering()) add(decohesion, 1.0);
   if (mode.decohering() || (mode.separated() && mode.flowing)) {
-    const double u0 = material.reference_opening();
+    const double u0 = law.reference_opening();
     add(opening_n, u0), add(opening_t, u0);
   }
   if (mode.decohering()) add(fracture, energy);
@@ -106,7 +106,7 @@ Dissipation ModeProblem::dissipation(const double* y) const {
 }
 
 bool ModeProblem::rates(double parameter, const double* y, double* out) const {
-  const Values v = rate_values(material_.rates(mode_, state(parameter, y), path_));
+  const Values v = rate_values(law_.rates(mode_, state(parameter, y), path_));
   double sum = 0.0;
   for (std::size_t i = 0; i < size_; ++i) sum += out[i] = v[unknowns_[i]] / scales_[i];
   return std::isfinite(sum);
@@ -114,20 +114,20 @@ bool ModeProblem::rates(double parameter, const double* y, double* out) const {
 
 void ModeProblem::jacobian(double parameter, const double* y, double* columns) const {
   // Unknowns of this mode: lambda, normal and tangential opening, fracture energy.
-  const OpeningJacobian J = material_.opening_jacobian(mode_, state(parameter, y), path_);
+  const OpeningJacobian J = law_.opening_jacobian(mode_, state(parameter, y), path_);
   for (std::size_t j = 0; j < size_; ++j)
     for (std::size_t i = 0; i < size_; ++i)
       columns[j * size_ + i] = j < 3 ? J[i][j] * scales_[j] / scales_[i] : 0.0;
 }
 
-void ModeProblem::events(double parameter, const double* y, EventFunctions& functions) const {
-  material_.events(mode_, state(parameter, y), path_, functions);
-  if (fraction_is_unknown_) functions.add(Root::path_end, fraction(parameter, y) - 1.0);
+void ModeProblem::guards(double parameter, const double* y, Guards& values) const {
+  law_.guards(mode_, state(parameter, y), path_, values);
+  if (fraction_is_unknown_) values.add(path_end, fraction(parameter, y) - 1.0);
 }
 
-void ModeProblem::settle(double parameter, double* y) const {
+void ModeProblem::project(double parameter, double* y) const {
   CompositeState s = state(parameter, y);
-  material_.settle(mode_, s, path_);
+  law_.settle(mode_, s, path_);
   const Values v = state_values(s);
   for (std::size_t i = 0; i < size_; ++i)
     if (is_settled(unknowns_[i])) y[i] = v[unknowns_[i]] / scales_[i];
@@ -137,7 +137,7 @@ void ModeProblem::absolute_tolerances(double relative, double absolute, double* 
   // Where the strength is small against the increment, a part of the increment would be all of the stress.
   constexpr double part_of_strength = 0.03;
   const double strength = part_of_strength * norm(deviator(start_.elastic_strain));
-  const double work = 2.0 * material_.virgin_moduli().shear * norm(path_.strain) * strength;
+  const double work = 2.0 * law_.virgin_moduli().shear * norm(path_.strain) * strength;
   for (std::size_t i = 0; i < size_; ++i) {
     const Unknown u = unknowns_[i];
     tolerances[i] = is_alone(u) ? absolute : absolute + relative;
@@ -147,7 +147,7 @@ void ModeProblem::absolute_tolerances(double relative, double absolute, double* 
 }
 
 const char* ModeProblem::name(std::size_t unknown) const {
-  constexpr std::array<const char*, capacity> names{
+  constexpr std::array<const char*, unknown_count> names{
       "mean elastic strain",      "elastic deviator rr", "elastic deviator zz", "elastic deviator rz",
       "plastic strain",           "crack density",       "decohesion",          "normal opening",
       "tangential opening",       "plastic dissipation", "damage dissipation",  "fracture energy",
