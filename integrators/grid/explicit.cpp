@@ -9,6 +9,7 @@
 #include "mpm/carried.hpp"
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
+#include "mpm/contact/contact.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -25,6 +26,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
   system.record.external_work = mpm::carry_held(system).work;
+  if (system.contact) system.contact->begin_step(system, duration);
   mpm::StressUpdate stress(system, duration);
   const auto scatter = [&](Scatter what) {
     return mpm::scatter_pass(system, what, mpm::Nodes::moved, duration);
@@ -47,6 +49,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   }
   stress.book();
   mpm::coast(system, duration);
+  if (system.contact) system.contact->end_step(system, duration);
   ++system.step_index;
 }
 

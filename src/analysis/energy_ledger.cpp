@@ -34,13 +34,16 @@ EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals) : t
 EnergyLedger::EnergyLedger(const System& system) : EnergyLedger(system, EnergyTotals{}) {
   totals_.kinetic = mpm::kinetic_energy(system);
   totals_.elastic = stored_energy(system);
-  totals_.initial = totals_.kinetic + totals_.elastic;
+  totals_.contact = system.record.contact;
+  totals_.initial = totals_.kinetic + totals_.elastic + totals_.contact;
 }
 
 void EnergyLedger::book(const System& system) {
   const StepRecord& r = system.record;
   totals_.kinetic = r.kinetic;
   totals_.elastic = r.elastic;
+  totals_.contact = r.contact;
+  totals_.friction += r.friction;
   totals_.plastic += r.dissipated.plastic;
   totals_.damage += r.dissipated.damage;
   totals_.fracture += r.dissipated.fracture;
@@ -66,8 +69,9 @@ EnergyTotals scaled(const EnergyTotals& t, double factor) {
   EnergyTotals s = t;
   for (double EnergyTotals::*member :
        {&EnergyTotals::initial, &EnergyTotals::kinetic, &EnergyTotals::elastic, &EnergyTotals::plastic,
-        &EnergyTotals::damage, &EnergyTotals::fracture, &EnergyTotals::snap_back, &EnergyTotals::external,
-        &EnergyTotals::largest_work, &EnergyTotals::rounding})
+        &EnergyTotals::damage, &EnergyTotals::fracture, &EnergyTotals::snap_back, &EnergyTotals::contact,
+        &EnergyTotals::friction, &EnergyTotals::external, &EnergyTotals::largest_work,
+        &EnergyTotals::rounding})
     s.*member *= factor;
   return s;
 }

@@ -21,10 +21,12 @@ struct EnergyTotals {
   double max_growth = 1.0;    ///< largest (kinetic + elastic) / initial seen; 1 where initial = 0
   double largest_work = 0.0;  ///< largest |external| so far
   double rounding = 0.0;      ///< what rounding makes of the scene's own energies
+  double contact = 0.0;       ///< stored between bodies
+  double friction = 0.0;      ///< dissipated between bodies so far
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {
-    return initial + external - (kinetic + elastic + plastic + damage + fracture);
+    return initial + external - (kinetic + elastic + contact + plastic + damage + fracture + friction);
   }
   /// What the residual is relative to: the energy that the scene began with or was given. What is taken back
   /// from it later does not count: a body that swings or a wall that returns ends with no work at all.

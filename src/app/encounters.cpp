@@ -171,6 +171,28 @@ void warn_of_joined(const Scene& scene, const System& system, Warnings& list) {
     }
 }
 
+/// Without [contact], bodies that can meet: they would not part again, and nothing in the scene says so. What
+/// a body does in a field of forces, nobody knows.
+void warn_of_welds(const Scene& scene, Warnings& list) {
+  if (scene.contact.stated) return;
+  const auto can_meet = [&](const BodyDefinition& a, const BodyDefinition& b) {
+    return scene.gravity != Vector2{0.0, 0.0} || a.velocity_gradient != std::array<Vector2, 2>{} ||
+           b.velocity_gradient != std::array<Vector2, 2>{} ||
+           overlap(grown(way_of(scene, a), 2.0 * scene.cell), way_of(scene, b));
+  };
+  for (std::size_t b = 1; b < scene.bodies.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      if (can_meet(scene.bodies[a], scene.bodies[b])) {
+        list.push_back(fmt::format(
+            "{}: bodies '{}' and '{}' are welded where they meet: without [contact] bodies share one "
+            "velocity "
+            "field; contact.method = \"bodies\" lets them touch, slide and part, \"single\" says that a weld "
+            "is meant",
+            scene.at(fmt::format("body.{}", b)), scene.bodies[a].name, scene.bodies[b].name));
+        return;
+      }
+}
+
 }  // namespace
 
 StartGeometry start_geometry(const Scene& scene, const System& system) {
@@ -233,7 +255,8 @@ void warn_of_geometry(const Scene& scene, const System& system, Warnings& list) 
   warn_of_tori(scene, list);
   warn_of_misses(scene, list);
   warn_of_idle_boundaries(scene, list);
-  warn_of_joined(scene, system, list);
+  if (scene.contact.method == ContactMethod::single) warn_of_joined(scene, system, list);
+  warn_of_welds(scene, list);
 }
 
 }  // namespace vitrum::app

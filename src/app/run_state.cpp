@@ -14,8 +14,8 @@ namespace {
 template <class State, class Visit>
 void visit_numbers(State& s, Visit&& visit) {
   auto& e = s.energy;
-  visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.external,
-        e.max_growth, e.largest_work, e.rounding);
+  visit("energy", e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.snap_back, e.contact,
+        e.friction, e.external, e.max_growth, e.largest_work, e.rounding);
   auto& i = s.integrator;
   visit("integrator", i.segment_start, i.segment_steps, i.segment_done, i.counters.steps, i.counters.rejected,
         i.counters.rhs_evaluations, i.counters.newton_iterations, i.counters.factorisations,
@@ -61,6 +61,7 @@ void store(const RunState& state, output::Checkpoint& checkpoint) {
     checkpoint.numbers[name] = {static_cast<double>(values)...};
   });
   checkpoint.numbers["coasting"] = state.coasting;
+  checkpoint.numbers["contact"] = state.contact;
   for (std::size_t body = 0; body < state.failure.size(); ++body)
     for (const auto& [event, member] : first_events)
       if (const std::optional<FirstEvent>& first = state.failure[body].*member) {
@@ -77,6 +78,8 @@ RunState restored(const output::Checkpoint& checkpoint) {
     (assign(values, numbers[k++], name), ...);
   });
   state.coasting = numbers_of(checkpoint, "coasting", checkpoint.bodies.size());
+  if (const auto contact = checkpoint.numbers.find("contact"); contact != checkpoint.numbers.end())
+    state.contact = contact->second;
   state.failure.resize(checkpoint.bodies.size());
   for (std::size_t body = 0; body < state.failure.size(); ++body)
     for (const auto& [event, member] : first_events) {

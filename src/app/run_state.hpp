@@ -14,6 +14,7 @@ struct RunState {
   EnergyTotals energy;
   std::vector<FailureAnalysis::Memory> failure;  ///< by body
   std::vector<double> coasting;                  ///< by body: 1 where it coasts, else 0
+  std::vector<double> contact;                   ///< mpm::Contact::state
   IntegratorState integrator;
   std::int64_t outputs = 0;       ///< planned outputs written, the one at the start not counted
   std::int64_t checkpoints = 0;   ///< planned checkpoints written

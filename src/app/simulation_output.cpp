@@ -4,6 +4,7 @@
 
 #include "analysis/fragments.hpp"
 #include "app/simulation.hpp"
+#include "mpm/contact/contact.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/write_scene.hpp"
@@ -36,6 +37,8 @@ std::vector<output::SeriesValue> Simulation::series() const {
       {"plastic", unit, "energy dissipated by plastic flow", e.plastic},
       {"damage", unit, "energy dissipated by damage", e.damage},
       {"fracture", unit, "energy dissipated by decohesion", e.fracture},
+      {"contact", unit, "energy stored between bodies", e.contact},
+      {"friction", unit, "energy dissipated by friction between bodies", e.friction},
       {"external", unit, "work of gravity and prescribed velocities", e.external},
       {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth},
@@ -103,6 +106,7 @@ void Simulation::write_checkpoint() {
   state_.solver = system_.constitutive_solver;
   state_.coasting.clear();
   for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
+  if (system_.contact) state_.contact = system_.contact->state();
   RunState stored = state_;
   stored.earlier_seconds = total_seconds();
   store(stored, checkpoint);

@@ -5,6 +5,7 @@
 
 #include "app/simulation.hpp"
 #include "mpm/coasting.hpp"
+#include "mpm/contact/contact.hpp"
 #include "mpm/initial_state.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
@@ -54,6 +55,8 @@ void Simulation::resume() {
   system_.constitutive_events = state_.events;
   system_.constitutive_solver = state_.solver;
   mpm::restore_coasting(system_, state_.coasting);
+  if (system_.contact && !system_.contact->restore(system_, state_.contact))
+    throw FileError("checkpoint: 'contact' is missing or does not fit this scene");
   ledger_ = EnergyLedger(system_, state_.energy);
   failure_.restore(state_.failure);
   integrator_->restore(state_.integrator);

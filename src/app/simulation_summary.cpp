@@ -6,6 +6,7 @@
 #include "app/messages.hpp"
 #include "app/plausibility.hpp"
 #include "app/simulation.hpp"
+#include "mpm/contact/contact.hpp"
 #include "mpm/stress.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
@@ -139,6 +140,15 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
     s.bodies.push_back(summarise(system_.bodies[n], whole_));
     s.bodies.back().failure = s.failure.bodies[n];
   }
+  if (system_.contact)
+    for (std::size_t n = 0; n < system_.contact->pairs().size(); ++n) {
+      const mpm::BodyPair& pair = system_.contact->pairs()[n];
+      const mpm::ContactHistory& history = system_.contact->history()[n];
+      s.contacts.push_back({{system_.bodies[pair.a].name, system_.bodies[pair.b].name},
+                            {whole_ * history.impulse[0], whole_ * history.impulse[1]},
+                            whole_ * history.friction_work,
+                            history.least_gap});
+    }
   s.provenance = provenance_;
   return s;
 }
@@ -157,6 +167,8 @@ std::string Simulation::summary_text(const output::RunSummary& s) const {
       "{:.5g}, external "
       "{:.5g}\n",
       unit, e.initial, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture, e.external);
+  if (system_.contact)
+    text += fmt::format("contact ({}): stored {:.5g}, friction {:.5g}\n", unit, e.contact, e.friction);
   text += fmt::format("energy residual {:+.5g} {} ({:+.3f} %), largest growth {:.4f}\n", e.residual(), unit,
                       100.0 * e.relative_residual(), e.max_growth);
   if (s.error)

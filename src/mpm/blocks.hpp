@@ -8,22 +8,20 @@
 /// Which block a cell belongs to, and which cells a block's particles are in.
 namespace vitrum::mpm {
 
-inline std::uint64_t key_of(std::int32_t column, std::int32_t row) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
-         static_cast<std::uint32_t>(column);
-}
-
 /// floor(cell / block_side)
 inline std::int32_t block_of(std::int64_t cell) {
   return static_cast<std::int32_t>(cell >> 3);
 }
 
-/// The order of blocks: by rows, or by columns.
+/// The order of blocks: by rows, or by columns; those of several velocity fields one after the other.
 struct Before {
   bool by_row;
   bool operator()(const Block& a, const Block& b) const {
-    if (by_row) return a.row != b.row ? a.row < b.row : a.column < b.column;
-    return a.column != b.column ? a.column < b.column : a.row < b.row;
+    const auto place = [this](const Block& block) {
+      return by_row ? std::array{block.row, block.column, block.field}
+                    : std::array{block.column, block.row, block.field};
+    };
+    return place(a) < place(b);
   }
 };
 
@@ -31,10 +29,10 @@ inline bool holds(const Block& b, std::int64_t i, std::int64_t j) {
   return b.column == block_of(i) && b.row == block_of(j);
 }
 
-/// The block with cell (i, j), for particles in that cell and beside it.
-inline Block block_at(std::int64_t i, std::int64_t j) {
+/// The block of a velocity field with cell (i, j), for particles in that cell and beside it.
+inline Block block_at(std::int64_t i, std::int64_t j, std::int32_t field) {
   Block b;
-  b.column = block_of(i), b.row = block_of(j);
+  b.column = block_of(i), b.row = block_of(j), b.field = field;
   b.cells = {i, i, j, j};
   return b;
 }

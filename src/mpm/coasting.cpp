@@ -100,7 +100,7 @@ Block as_made_anew(const System& system, const Block& b) {
     for (const std::uint32_t* at = begin; at != end; ++at) {
       const std::int64_t i = cell_of(p.position[0][*at] * (1.0 / system.cell)),
                          j = cell_of(p.position[1][*at] * (1.0 / system.cell));
-      if (!made) made = block_at(i, j);
+      if (!made) made = block_at(i, j, b.field);
       widen(*made, i, j);
     }
   }

@@ -58,7 +58,7 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
         }
       if constexpr (P::strain) {
         if (stress != nullptr)
-          strain_and_stress<axisymmetric>(chunk, tile, n, *stress, at, r, cell, duration);
+          strain_and_stress<axisymmetric>(chunk, p, tile, n, *stress, at, r, cell, duration);
         else
           store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
       }

@@ -66,13 +66,16 @@ void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, c
 
 /// The same without a detour through memory that no one else will read.
 template <bool axisymmetric, class P>
-void strain_and_stress(const Chunk& chunk, std::size_t tile, std::size_t body, StressUpdate& stress,
-                       const Interpolated<P>& at, const ColumnReader& radius, double cell, double duration) {
+void strain_and_stress(const Chunk& chunk, Particles& p, std::size_t tile, std::size_t body,
+                       StressUpdate& stress, const Interpolated<P>& at, const ColumnReader& radius,
+                       double cell, double duration) {
   ChunkIncrements increments;
   auto& e = increments.strain;
   interpolate_strain<axisymmetric>(chunk.size(), at, radius, cell, duration, {e[0], e[1], e[2], e[3]},
                                    increments.spin);
   stress.take(tile, body, chunk, increments);
+  if (!p.turn.empty())
+    for (std::size_t k = 0; k < chunk.size(); ++k) p.turn[chunk.place(k)] += increments.spin[k];
 }
 
 /// Adds the interpolated change to the velocities; returns the kinetic energy of the chunk then.

@@ -51,25 +51,26 @@ void Grid::find_blocks(const std::vector<Body>& bodies) {
   find_.clear();
   const double per_cell = 1.0 / cell_;
   std::size_t k = 0;
-  std::int32_t last = -1;
-  for (const Body& body : bodies)
+  for (const Body& body : bodies) {
+    std::int32_t last = -1;
     for (std::size_t p = 0; p < body.on_grid(); ++p, ++k) {
       const std::int64_t i = checked_cell(body.particles.position[0][p] * per_cell, body, p);
       const std::int64_t j = checked_cell(body.particles.position[1][p] * per_cell, body, p);
       if (last < 0 || !holds(met[static_cast<std::size_t>(last)], i, j)) {
         const auto [entry, added] =
-            find_.try_emplace(key_of(block_of(i), block_of(j)), static_cast<std::int32_t>(met.size()));
-        if (added) met.push_back(block_at(i, j));
+            find_.try_emplace({block_of(i), block_of(j), body.field}, static_cast<std::int32_t>(met.size()));
+        if (added) met.push_back(block_at(i, j, body.field));
         last = entry->second;
       }
       widen(met[static_cast<std::size_t>(last)], i, j);
       home_[k] = last;
     }
+  }
   // In geometric order, so that sums over blocks do not depend on the order in which blocks were met.
   std::vector<Block> sorted = met;
   set_blocks(std::move(sorted));
   std::vector<std::int32_t> rank(met.size());
-  for (std::size_t n = 0; n < met.size(); ++n) rank[n] = find_.at(key_of(met[n].column, met[n].row));
+  for (std::size_t n = 0; n < met.size(); ++n) rank[n] = find_.at(key_of(met[n]));
   for (std::int32_t& home : home_) home = rank[static_cast<std::size_t>(home)];
 }
 
@@ -130,7 +131,7 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
   for (std::int32_t n : tile_block_) {
     Block& b = blocks_[static_cast<std::size_t>(n)];
     b.tile = n;
-    find_[key_of(b.column, b.row)] = n;
+    find_[key_of(b)] = n;
   }
   moved_.resize(tile_block_.size());
   for (Moved& tile : moved_) tile.clear();
@@ -199,22 +200,23 @@ void Grid::add_neighbours(bool by_row) {
     const auto [left, right, down, up] = reach(b);
     for (int dj = down; dj <= up; ++dj)
       for (int di = left; di <= right; ++di) {
-        const auto [entry, added] =
-            find_.try_emplace(key_of(b.column + di, b.row + dj), static_cast<std::int32_t>(blocks_.size()));
+        const auto [entry, added] = find_.try_emplace({b.column + di, b.row + dj, b.field},
+                                                      static_cast<std::int32_t>(blocks_.size()));
         if (added) {
           blocks_.emplace_back();
           blocks_.back().column = b.column + di, blocks_.back().row = b.row + dj;
+          blocks_.back().field = b.field;
         }
       }
   }
   // In geometric order too: what is summed over blocks must not depend on the particles that asked for them.
   std::sort(blocks_.begin() + static_cast<std::ptrdiff_t>(with_particles), blocks_.end(), Before{by_row});
   for (std::size_t n = with_particles; n < blocks_.size(); ++n)
-    find_[key_of(blocks_[n].column, blocks_[n].row)] = static_cast<std::int32_t>(n);
+    find_[key_of(blocks_[n])] = static_cast<std::int32_t>(n);
   for (Block& b : blocks_)
     for (int dj = -1; dj <= 1; ++dj)
       for (int di = -1; di <= 1; ++di) {
-        const auto entry = find_.find(key_of(b.column + di, b.row + dj));
+        const auto entry = find_.find({b.column + di, b.row + dj, b.field});
         b.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)] =
             entry == find_.end() ? -1 : entry->second;
       }

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -55,9 +56,11 @@ enum class Field : std::size_t {
 };
 inline constexpr std::size_t field_count = 9, moved_field_count = 5;  // of these, without the sums
 
-/// A square of block_side x block_side nodes (and the cells to their upper right).
+/// A square of block_side x block_side nodes (and the cells to their upper right) of one velocity field.
+/// Bodies of different fields share no node, wherever they are.
 struct Block {
   std::int32_t column = 0, row = 0;  ///< block coordinates: node (8 column, 8 row) is its first
+  std::int32_t field = 0;            ///< Body::field of its particles
   std::array<std::int32_t, 9>
       neighbours{};          ///< index of the block at (di, dj) in 3 (dj + 1) + di + 1; -1: absent
   std::int32_t tile = -1;    ///< index of its tile; -1: holds no particle
@@ -65,6 +68,23 @@ struct Block {
   std::array<std::int64_t, 4>
       cells{};  ///< first and last cell column, first and last row its particles may be in
 };
+
+/// Which block: by place and velocity field.
+struct BlockKey {
+  std::int32_t column, row, field;
+  bool operator==(const BlockKey&) const = default;
+
+  struct Hash {
+    std::size_t operator()(const BlockKey& key) const {
+      const auto place = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(key.row)) << 32) |
+                         static_cast<std::uint32_t>(key.column);
+      return std::hash<std::uint64_t>{}(place ^ (static_cast<std::uint64_t>(key.field) << 48));
+    }
+  };
+};
+inline BlockKey key_of(const Block& b) {
+  return {b.column, b.row, b.field};
+}
 
 /// The positions that lie in the cells that a block's particles may be in. A comparison of doubles: it holds
 /// for positions that no integer can hold, and is false for what is not a number.
@@ -125,6 +145,8 @@ class Grid {
   /// Particles in chunks that lie otherwise, and all particles.
   std::size_t scattered() const { return scattered_; }
   std::size_t listed() const { return index_.size(); }
+  /// How often particles have changed places in memory.
+  std::size_t times_sorted() const { return times_sorted_; }
 
   /// Which tiles each thread has in its cache: those of the pieces of strips from shares[n] on, for thread n.
   void share_tiles(std::span<const std::size_t> shares);
@@ -236,7 +258,7 @@ class Grid {
   static std::size_t scattered_in(Range list);
 
   void find_movers(std::size_t tile, const std::vector<Body>& bodies);
-  std::int32_t tile_of(std::int32_t column, std::int32_t row) const;
+  std::int32_t tile_of(const BlockKey& key) const;
   std::int32_t destination(const Mover& mover) const;
   void collect_movers(std::size_t first, std::size_t last, Found& found);
   bool has_neighbours(const Block& block) const;
@@ -262,7 +284,7 @@ class Grid {
   std::vector<std::uint32_t> offset_, index_;  // particles by (tile, body)
   std::vector<std::size_t> shares_;            // first tile of each thread's
   std::vector<Moved> moved_;                   // by tile
-  std::size_t scattered_ = 0;
+  std::size_t scattered_ = 0, times_sorted_ = 0;
   std::vector<std::int32_t> home_;    // scratch: block of each particle
   std::vector<std::uint32_t> place_;  // scratch: place of each identity
   std::vector<Found> found_;          // scratch: by thread
@@ -270,7 +292,7 @@ class Grid {
   std::vector<Leaver> leavers_;       // scratch: by list and place
   std::vector<Comer> comers_;         // scratch: by list and identity
   Lists old_;                         // scratch
-  std::unordered_map<std::uint64_t, std::int32_t> find_;
+  std::unordered_map<BlockKey, std::int32_t, BlockKey::Hash> find_;
   std::array<std::vector<double>, field_count> fields_;
   std::array<std::vector<std::int16_t>, 2> constraints_;
   std::vector<Image> images_;             // by tile

@@ -22,6 +22,9 @@ struct Particles {
   std::vector<std::vector<double>> variables;         ///< in the order of Material::columns()
   std::vector<std::size_t> flipping;                  ///< those whose sign a mirror across the axis changes
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
+  // Where bodies have contact (mpm/contact), else empty: what patches of the surface follow.
+  std::vector<double> turn;      ///< rad since the start, counter-clockwise from r to z
+  std::vector<double> mirrored;  ///< 1, or -1 where the particle has become its own image at the axis
 
   // Scratch, empty where passes take particles over their increments at once (mpm/transfer.hpp): strain
   // increment in the frame that turns with the particle, and turn.
@@ -33,6 +36,8 @@ struct Particles {
   /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
   /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
   std::vector<double> tried_stress_zr;
+  /// Force of contact, N (per radian or per metre), and couple, N m; empty where the body touches nothing.
+  std::array<std::vector<double>, 3> contact_force;
 
   /// Has room for the variables of a material from now on, at 0.
   void keep_variables(std::span<const Component> columns) {
@@ -60,6 +65,7 @@ struct Body {
   std::shared_ptr<const Material> material;
   Particles particles;
   double particle_half_size = 0.0;  ///< m, half the side of a particle's initial square (GIMP)
+  std::int32_t field = 0;  ///< velocity field: bodies with the same one are welded where they share nodes
   std::optional<Coasting> coasting = std::nullopt;
 
   /// The column of a variable by its name; empty where the material has none.

@@ -112,8 +112,8 @@ void Grid::collect_movers(std::size_t first, std::size_t last, Found& found) {
 }
 
 /// The tile of a block; -1: none.
-std::int32_t Grid::tile_of(std::int32_t column, std::int32_t row) const {
-  const auto entry = find_.find(key_of(column, row));
+std::int32_t Grid::tile_of(const BlockKey& key) const {
+  const auto entry = find_.find(key);
   return entry == find_.end() ? -1 : blocks_[static_cast<std::size_t>(entry->second)].tile;
 }
 
@@ -122,7 +122,7 @@ std::int32_t Grid::destination(const Mover& m) const {
   const Block& from = blocks_[m.from / body_count_];
   const std::int64_t di = std::int64_t{block_of(m.i)} - from.column,
                      dj = std::int64_t{block_of(m.j)} - from.row;
-  if (std::max(std::abs(di), std::abs(dj)) > 1) return tile_of(block_of(m.i), block_of(m.j));
+  if (std::max(std::abs(di), std::abs(dj)) > 1) return tile_of({block_of(m.i), block_of(m.j), from.field});
   const std::int32_t block = from.neighbours[static_cast<std::size_t>(3 * (dj + 1) + di + 1)];
   return block < 0 ? -1 : blocks_[static_cast<std::size_t>(block)].tile;
 }
@@ -152,12 +152,12 @@ std::vector<Block> Grid::blocks_after_moves() const {
   for (std::size_t tile = 0; tile < size.size(); ++tile)
     size[tile] = std::int64_t{old_.offset[(tile + 1) * body_count_]} - old_.offset[tile * body_count_];
   std::vector<Block> after(blocks_.begin(), blocks_.begin() + static_cast<std::ptrdiff_t>(size.size()));
-  std::unordered_map<std::uint64_t, std::size_t> place;
-  for (std::size_t tile = 0; tile < size.size(); ++tile)
-    place[key_of(after[tile].column, after[tile].row)] = tile;
+  std::unordered_map<BlockKey, std::size_t, BlockKey::Hash> place;
+  for (std::size_t tile = 0; tile < size.size(); ++tile) place[key_of(after[tile])] = tile;
   for (const Mover& m : movers_) {
-    const auto [entry, added] = place.try_emplace(key_of(block_of(m.i), block_of(m.j)), after.size());
-    if (added) after.push_back(block_at(m.i, m.j)), size.push_back(0);
+    const std::int32_t field = blocks_[m.from / body_count_].field;
+    const auto [entry, added] = place.try_emplace({block_of(m.i), block_of(m.j), field}, after.size());
+    if (added) after.push_back(block_at(m.i, m.j, field)), size.push_back(0);
     widen(after[entry->second], m.i, m.j);
     --size[m.from / body_count_], ++size[entry->second];
   }
@@ -178,7 +178,7 @@ void Grid::renew_blocks() {
   old_.list.assign(offset_.size() - 1, -1);
   std::vector<std::int32_t> rank(old.size());  // old tile -> new tile; -1: holds no particle any more
   for (std::size_t tile = 0; tile < old.size(); ++tile) {
-    rank[tile] = tile_of(old[tile].column, old[tile].row);
+    rank[tile] = tile_of(key_of(old[tile]));
     for (std::size_t n = 0; rank[tile] >= 0 && n < body_count_; ++n) {
       const std::size_t from = tile * body_count_ + n,
                         to = static_cast<std::size_t>(rank[tile]) * body_count_ + n;
@@ -190,7 +190,8 @@ void Grid::renew_blocks() {
     const std::size_t body = m.from % body_count_;
     if (const std::int32_t stays = rank[m.from / body_count_]; stays >= 0)
       --offset_[static_cast<std::size_t>(stays) * body_count_ + body + 1];
-    const auto tile = static_cast<std::size_t>(tile_of(block_of(m.i), block_of(m.j)));
+    const auto tile =
+        static_cast<std::size_t>(tile_of({block_of(m.i), block_of(m.j), old[m.from / body_count_].field}));
     m.to = static_cast<std::uint32_t>(tile * body_count_ + body);
     ++offset_[m.to + 1];
   }

@@ -90,6 +90,7 @@ class Contributions {
         share[width] = pull * rr[k], share[width + 1] = pull * zr[k];
         share[2 * width] = pull * rz[k], share[2 * width + 1] = pull * zz[k];
       }
+      if (!p.contact_force[0].empty()) add_contact(chunk, p, per_cell);
     }
     if constexpr (P::momentum) {
       const double *from0 = v0.data(), *from1 = v1.data();
@@ -109,6 +110,18 @@ class Contributions {
   }
 
  private:
+  /// A couple acts on the spin (dv_z/dr - dv_r/dz) / 2, as stress acts on strain rates.
+  void add_contact(const Chunk& chunk, const Particles& p, double per_cell) {
+    constexpr std::size_t first = P::momentum ? 2 : 0, width = P::width;
+    for (std::size_t k = 0; k < chunk.size(); ++k) {
+      const std::size_t i = chunk.place(k);
+      double* share = values_[k] + first;
+      share[0] += p.contact_force[0][i], share[1] += p.contact_force[1][i];
+      const double twist = 0.5 * per_cell * p.contact_force[2][i];
+      share[width + 1] += twist, share[2 * width] -= twist;
+    }
+  }
+
   alignas(64) double mass_[Chunk::capacity];
   alignas(64) double values_[Chunk::capacity][3 * P::width]{};  // momentum has no part in r and z: 0 stays
 };

@@ -96,7 +96,7 @@ void Grid::sort_storage(std::vector<Body>& bodies, parallel::ThreadTeam& team, s
   team.on_each_thread([&](std::size_t n) {
     if (n < count) all_parts[n].place(bodies);
   });
-  scattered_ = 0;
+  scattered_ = 0, ++times_sorted_;
 }
 
 }  // namespace vitrum::mpm

@@ -10,7 +10,7 @@ void for_each_column(AnyParticles& p, Call&& call) {
     for (auto& column : columns) call(column);
   };
   all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables);
-  call(p.mass), call(p.identity);
+  call(p.mass), call(p.identity), call(p.turn), call(p.mirrored);
 }
 
 }  // namespace vitrum::mpm

@@ -24,9 +24,15 @@ struct StepRecord {
   double kinetic = 0.0;        ///< at the end of the step
   double elastic = 0.0;        ///< stored, at the end of the step
   Dissipation dissipated;      ///< in the step
+  double contact = 0.0;        ///< stored between bodies, at the end of the step
+  double friction = 0.0;       ///< dissipated between bodies in the step
   double external_work = 0.0;  ///< of gravity and prescribed velocities in the step
   std::vector<BodyEvent> events;
 };
+
+namespace mpm {
+class Contact;
+}
 
 /// All that moves: bodies, their grid, and how their particles' local equations are integrated.
 struct System {
@@ -37,7 +43,8 @@ struct System {
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
   std::unique_ptr<parallel::ThreadTeam> team;
-  parallel::Wave wave;  ///< how the team goes over the grid
+  parallel::Wave wave;                    ///< how the team goes over the grid
+  std::shared_ptr<mpm::Contact> contact;  ///< null: bodies share one velocity field
 
   double time = 0.0;  ///< s
   std::int64_t step_index = 0;

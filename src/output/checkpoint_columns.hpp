@@ -8,7 +8,7 @@
 
 namespace vitrum::output {
 
-/// Name and column of what every particle has.
+/// Name and column of what every particle has, or of what is empty (without contact).
 /// `ParticlesType`: Particles or const Particles.
 template <class ParticlesType>
 auto stored_columns(ParticlesType& particles) {
@@ -22,6 +22,7 @@ auto stored_columns(ParticlesType& particles) {
   columns.emplace_back("mass", &particles.mass);
   for (std::size_t c = 0; c < 4; ++c)
     columns.emplace_back(std::string("elastic_strain_") + components[c], &particles.elastic_strain[c]);
+  columns.emplace_back("turn", &particles.turn), columns.emplace_back("mirrored", &particles.mirrored);
   return columns;
 }
 

@@ -22,7 +22,9 @@ void require_name(const std::string& name) {
 void write_body(const Group& group, const BodyCheckpoint& body) {
   group.set_attribute(".", "name", body.name);
   group.write("identity", body.particles.identity);
-  for (const auto& [name, column] : stored_columns(body.particles)) group.write(name, *column);
+  for (const auto& [name, column] : stored_columns(body.particles)) {
+    if (!column->empty()) group.write(name, *column);
+  }
   const Group variables = group.create_group("variables");
   for (const auto& [name, column] : body.variables) variables.write(name, column);
 }

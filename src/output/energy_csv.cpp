@@ -40,9 +40,9 @@ EnergyCsv EnergyCsv::reopen(const std::filesystem::path& path, std::size_t rows)
 }
 
 void EnergyCsv::append(double time, std::int64_t step, const EnergyTotals& energy) {
-  const std::string line =
-      fmt::format("{},{},{},{},{},{},{},{},{}\n", time, step, energy.kinetic, energy.elastic, energy.plastic,
-                  energy.damage, energy.fracture, energy.external, energy.residual());
+  const std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", time, step, energy.kinetic,
+                                       energy.elastic, energy.plastic, energy.damage, energy.fracture,
+                                       energy.external, energy.residual(), energy.contact, energy.friction);
   try {
     file_.write(line);
   } catch (const FileError&) {

@@ -12,7 +12,8 @@ namespace vitrum::output {
 /// cannot be written whole (disk full) is taken back. Numbers round-trip. All functions throw FileError.
 class EnergyCsv {
  public:
-  static constexpr const char* header = "time,step,kinetic,elastic,plastic,damage,fracture,external,residual";
+  static constexpr const char* header =
+      "time,step,kinetic,elastic,plastic,damage,fracture,external,residual,contact,friction";
 
   static EnergyCsv create(const std::filesystem::path& path);
   /// Continues a file, keeping its first `rows` rows. Throws FileError when it has fewer or another header.

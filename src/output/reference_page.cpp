@@ -127,8 +127,8 @@ axis, draws each particle as a square of its size, and colours by separation.
 
 ## `energy.csv`
 
-Header `time,step,kinetic,elastic,plastic,damage,fracture,external,residual`; s and J; `plastic`, `damage` and `fracture` are dissipated
-so far, `external` is the work done so far, `residual` = initial + external - all the others. Numbers round-trip.
+Header `time,step,kinetic,elastic,plastic,damage,fracture,external,residual,contact,friction`; s and J; `plastic`, `damage`, `fracture` and `friction` are
+dissipated so far, `contact` is stored between bodies, `external` is the work done so far, `residual` = initial + external - all the others. Numbers round-trip.
 
 ## `summary.json`
 
@@ -141,7 +141,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 | `time`, `particles`, `wall_seconds`, `total_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop alone; seconds of the whole process, outputs and all (of a resumed run: both with those before the checkpoint); threads used |
 | `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `step_min`, `step_max` (s), `limited_by` {`stability`, `accuracy` (or `max_step`), `output`, `remap`} (steps), `error_estimate` {`total`, `position`, `velocity`, `strain`} (sums of local errors over their scales; null: no estimate), `phases`, `remap_loss` (J; arkode-implicit) |
 | `constitutive` | `method`, `evaluations` (bodies that coast take none), `cvode_solves`, `cvode_steps`, `cvode_rhs`, `increments_solved`, `solves`, `solver_steps`, `solver_rhs`, `failures`, `events` |
-| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
+| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `contact` (stored between bodies), `friction` (dissipated between them), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
 | `failure.first_damage`, `.first_localisation`, `.first_separation` | {`time`, `r`, `z`, `body`} |
 | `failure.localised`, `.separated` | particles at the end |
 | `failure.damage_threshold` | the damage D that `first_damage` waits for |
@@ -150,6 +150,7 @@ so far, `external` is the work done so far, `residual` = initial + external - al
 | `failure.perforated` | whether the projectile is through the target, whatever is left of that ([theory](theory.md), 3); null: no body moves at the start towards one that can separate |
 | `failure.fragments` | `count`, `largest_mass`, `total_mass`, `list` of the 100 largest {`body`, `particles`, `mass`, `centre`, `velocity`} |
 | `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, the measures of `failure` for this body alone (`first_*`, `localised`, ... `max_opening_radius`), and `fragments`, their number |
+| `contacts` | a list of the pairs of bodies between which there is contact: `bodies`, `impulse` (N s, on the first since the start; kg m/s gained), `friction_work` (J), `least_gap` (m, between opposite places of their surfaces, so far; negative: penetration) |
 | `provenance` | as in `result.h5` |
 
 ## `checkpoint.h5`

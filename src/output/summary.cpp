@@ -84,6 +84,7 @@ Json energy_block(const EnergyTotals& energy) {
           {"elastic", number(energy.elastic)},      {"plastic", number(energy.plastic)},
           {"damage", number(energy.damage)},        {"fracture", number(energy.fracture)},
           {"snap_back", number(energy.snap_back)},  {"external", number(energy.external)},
+          {"contact", number(energy.contact)},      {"friction", number(energy.friction)},
           {"residual", number(energy.residual())},  {"relative_residual", number(energy.relative_residual())},
           {"max_growth", number(energy.max_growth)}};
 }
@@ -147,6 +148,12 @@ Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments)
 }  // namespace
 
 nlohmann::ordered_json to_json(const RunSummary& summary) {
+  Json contacts = Json::array();
+  for (const ContactSummary& contact : summary.contacts)
+    contacts.push_back({{"bodies", contact.bodies},
+                        {"impulse", {number(contact.impulse[0]), number(contact.impulse[1])}},
+                        {"friction_work", number(contact.friction_work)},
+                        {"least_gap", number(contact.least_gap)}});
   Json bodies = Json::object(), provenance = Json::object();
   for (const BodySummary& body : summary.bodies)
     bodies[body.name] = body_block(body, summary.failure.fragments);
@@ -165,6 +172,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
           {"energy", energy_block(summary.energy)},
           {"failure", failure_block(summary.failure)},
           {"bodies", bodies},
+          {"contacts", contacts},
           {"provenance", provenance}};
 }
 

@@ -27,6 +27,14 @@ struct BodySummary {
   FailureMeasures failure;
 };
 
+/// What has passed between two bodies (axisymmetric: whole bodies; plane strain: per metre).
+struct ContactSummary {
+  std::array<std::string, 2> bodies;
+  std::array<double, 2> impulse{};  ///< N s, on the first
+  double friction_work = 0.0;       ///< J
+  double least_gap = 0.0;  ///< m; negative: penetration; infinite: they were never opposite each other
+};
+
 /// What summary.json tells. Energies arrive as they are to be written (axisymmetric: joules of the whole
 /// body).
 struct RunSummary {
@@ -47,6 +55,7 @@ struct RunSummary {
   EnergyTotals energy;
   FailureReport failure;
   std::vector<BodySummary> bodies;
+  std::vector<ContactSummary> contacts;  ///< by pair, where bodies have contact
   Provenance provenance;
 };
 

@@ -9,6 +9,7 @@
 #include "mpm/computation_error.hpp"
 #include "mpm/point.hpp"
 #include "mpm/transfer.hpp"
+#include "scene/build_contact.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/local_method.hpp"
@@ -152,6 +153,7 @@ System build_system(const Scene& scene, int threads) {
                           make_boundaries(scene, system));
   system.local = make_local_integrator(scene.constitutive);
   system.team = make_team(threads > 0 ? threads : thread_count(scene, system, available_threads()));
+  build_contact(scene, system);
   system.record.kinetic = mpm::kinetic_energy(system);
   return system;
 }

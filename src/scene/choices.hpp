@@ -14,6 +14,7 @@ inline constexpr std::array<std::string_view, 3> shape_function_names{"linear", 
 inline constexpr std::array<std::string_view, 3> grid_method_names{"explicit", "arkode-explicit",
                                                                    "arkode-implicit"};
 inline constexpr std::array<std::string_view, 3> scheme_names{"usf", "usl", "musl"};
+inline constexpr std::array<std::string_view, 2> contact_method_names{"single", "bodies"};
 inline constexpr std::array<std::string_view, 3> local_method_names{"closed-form", "substep", "cvode"};
 inline constexpr std::array<std::string_view, 2> linear_solver_names{"klu", "gmres"};
 inline constexpr std::array<std::string_view, 2> preconditioner_names{"factor", "diagonal"};

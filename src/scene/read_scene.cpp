@@ -61,6 +61,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   scene.materials = read_materials(document);
   read_bodies(document, scene);
   read_boundaries(document, scene);
+  read_contact(document, scene);
   diagnostics.throw_if_any();
   scene.warnings = diagnostics.warnings();
   note_places(table, "", diagnostics, scene.places);

@@ -60,7 +60,7 @@ their nearest particles and the number of common nodes, and for each boundary th
 This page is printed by the program from the tables that its reader uses; do not edit it.
 )";
 
-std::array<Section, 16> scene_sections() {
+std::array<Section, 18> scene_sections() {
   return {{
       {"The file", "Tables of the document.", keys::scene()},
       {"[space]", "Geometry and grid.", keys::space()},
@@ -86,6 +86,12 @@ std::array<Section, 16> scene_sections() {
       {"[[boundary]]", "Grid nodes that are held or driven; the axis is handled by the geometry.",
        keys::boundary(Geometry::axisymmetric)},
       {"`box` of a boundary", "", keys::boundary_box()},
+      {"[contact]",
+       "What happens where bodies meet. Without this table the method is `single`, and `check` and `run` "
+       "warn of "
+       "bodies that can meet.",
+       keys::contact()},
+      {"[[contact.pair]]", "", keys::contact_pair()},
       {"[gravity]", "", keys::gravity()},
       {"[material.NAME]",
        "Isotropic elasticity; each table in it switches a model on. A model that is absent is "

@@ -18,6 +18,7 @@ enum class Geometry { axisymmetric, plane_strain };
 enum class ShapeFunctions { linear, gimp, bspline2 };
 enum class GridMethod { explicit_steps, arkode_explicit, arkode_implicit };
 enum class ExplicitScheme { usf, usl, musl };
+enum class ContactMethod { single, bodies };
 enum class LocalMethod { closed_form, substep, cvode };
 
 struct Box {
@@ -95,6 +96,22 @@ struct OutputDefinition {
   std::optional<double> checkpoint_every;          ///< s; none: only on a signal
 };
 
+/// What two bodies have of their own.
+struct ContactPair {
+  std::array<std::string, 2> bodies;
+  double friction = 0.0;
+};
+
+struct ContactDefinition {
+  bool stated = false;  ///< the scene has a table [contact]
+  ContactMethod method = ContactMethod::single;
+  double friction = 0.0;             ///< may be infinite
+  double stiffness = 1.0;            ///< of the two materials over a cell
+  double depth = 0.5;                ///< cells
+  std::optional<double> slip_speed;  ///< m/s; none: from the scene's speeds
+  std::vector<ContactPair> pairs;
+};
+
 /// A validated scene. Everything is SI; every default is filled in.
 struct Scene {
   std::string title;
@@ -107,6 +124,7 @@ struct Scene {
   OutputDefinition output;
   std::vector<BodyDefinition> bodies;
   std::vector<BoundaryDefinition> boundaries;
+  ContactDefinition contact;
   Vector2 gravity{0.0, 0.0};                  ///< m/s^2
   std::vector<MaterialParameters> materials;  ///< in the order of the file
   std::string verbatim;                       ///< the file's text, unchanged

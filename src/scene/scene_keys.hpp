@@ -20,6 +20,8 @@ KeyTable integrator();
 KeyTable constitutive();
 KeyTable output();
 KeyTable gravity();
+KeyTable contact();
+KeyTable contact_pair();
 KeyTable path();
 
 // [[body]], its shapes, and [[boundary]].

@@ -43,6 +43,8 @@ KeyTable scene() {
       other_key("output", "a table [output]", "what is written, and when"),
       required(other_key("body", "tables [[body]], at least one", "the bodies, in order")),
       other_key("boundary", "tables [[boundary]]", "grid nodes that are held or driven"),
+      other_key("contact", "a table [contact]",
+                "what happens where bodies meet; absent: they share one velocity field"),
       other_key("gravity", "a table [gravity]", "body force; absent: none"),
       required(other_key("material", "a table [material.NAME] for each material", "the materials")),
   };
@@ -153,6 +155,44 @@ KeyTable output() {
 KeyTable gravity() {
   static const std::vector<KeyInfo> keys{
       required(list_key("acceleration", 2, finite, "m/s^2", "(r, z) or (x, y)")),
+  };
+  return keys;
+}
+
+KeyTable contact() {
+  static const ContactDefinition standard;
+  static const std::vector<KeyInfo> keys{
+      defaulted(
+          choice_key("method", contact_method_names,
+                     "`single`: one velocity field, the original method's: bodies are welded where they "
+                     "meet, up to 2.2 cells early; `bodies`: a field for each body, and contact of their "
+                     "surfaces: they touch, slide and part"),
+          "\"single\""),
+      defaulted(
+          number_key("friction", {0.0, infinite}, "1",
+                     "bodies: Coulomb's coefficient; inf: bodies stick where they are pressed together"),
+          standard.friction),
+      defaulted(number_key("stiffness", positive, "1",
+                           "bodies: pressure of a penetration, relative to that of the two materials over a "
+                           "cell; stiffer is not better: 1 is about as stiff as the grid"),
+                standard.stiffness),
+      defaulted(
+          number_key("depth", {0.0, 2.0, true, false}, "cells",
+                     "bodies: penetration at which a surface gives way; the largest pressure is at half "
+                     "of it"),
+          standard.depth),
+      number_key("slip_speed", positive, "m/s",
+                 "bodies: friction has its full size from this speed on; absent: a hundredth of the largest "
+                 "speed of the scene's start and boundaries"),
+      other_key("pair", "tables [[contact.pair]]", "overrides for two bodies"),
+  };
+  return keys;
+}
+
+KeyTable contact_pair() {
+  static const std::vector<KeyInfo> keys{
+      required(other_key("bodies", "a list of the names of two bodies", "which")),
+      required(number_key("friction", {0.0, infinite}, "1", "as in [contact]")),
   };
   return keys;
 }

@@ -27,6 +27,8 @@ std::vector<MaterialParameters> read_materials(const TableReader& document);
 void read_bodies(const TableReader& document, Scene& scene);
 /// Reads scene.boundaries; needs scene.geometry.
 void read_boundaries(const TableReader& document, Scene& scene);
+/// Reads scene.contact; needs scene.bodies.
+void read_contact(const TableReader& document, Scene& scene);
 
 /// Reports an interval (s) that fits into the scene's duration more than 1e12 times: such a run would not
 /// end, and far beyond it the intervals can no longer be counted.

@@ -151,6 +151,21 @@ void write_boundary(TomlWriter& out, const BoundaryDefinition& boundary, Geometr
   out.line("priority", boundary.priority);
 }
 
+void write_contact(TomlWriter& out, const ContactDefinition& contact) {
+  if (!contact.stated) return;
+  out.header("[contact]");
+  out.line("method", name_of(contact_method_names, contact.method));
+  out.line("friction", contact.friction);
+  out.line("stiffness", contact.stiffness);
+  out.line("depth", contact.depth);
+  if (contact.slip_speed) out.line("slip_speed", *contact.slip_speed);
+  for (const ContactPair& pair : contact.pairs) {
+    out.header("[[contact.pair]]");
+    out.raw("bodies", fmt::format("[{}, {}]", toml_quoted(pair.bodies[0]), toml_quoted(pair.bodies[1])));
+    out.line("friction", pair.friction);
+  }
+}
+
 void write_material(TomlWriter& out, const MaterialParameters& material) {
   const std::string table = join_path("material", material.name);
   const auto model = [&](std::string_view name) { out.header(fmt::format("[{}.{}]", table, name)); };
@@ -208,6 +223,7 @@ std::string resolved_toml(const Scene& scene) {
   write_output(out, scene.output);
   for (const BodyDefinition& body : scene.bodies) write_body(out, body);
   for (const BoundaryDefinition& boundary : scene.boundaries) write_boundary(out, boundary, scene.geometry);
+  write_contact(out, scene.contact);
   out.header("[gravity]");
   out.line("acceleration", scene.gravity);
   for (const MaterialParameters& material : scene.materials) write_material(out, material);

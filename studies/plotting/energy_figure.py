@@ -6,13 +6,19 @@ from plotting.looks import page_width
 
 # Okabe and Ito's colours, in an order that keeps neighbours of the stack apart.
 shares = {"kinetic": "#0072B2", "elastic": "#56B4E9", "plastic": "#E69F00", "damage": "#009E73", "fracture": "#D55E00"}
+between_bodies = {"contact": "#F0E442", "friction": "#CC79A7"}  # shown where there is any
 beside = {"fontsize": 8, "loc": "center left", "bbox_to_anchor": (1.0, 0.5), "frameon": False}
+
+
+def _shares_of(account):
+    return shares | {name: colour for name, colour in between_bodies.items() if np.any(account.get(name, 0.0))}
 
 
 def _stack(axes, time, account, put_in):
     """Where the energy is: shares on top of each other, and what is missing of, or beyond, what was put in."""
-    axes.stackplot(time, [account[name] for name in shares], colors=shares.values(), labels=shares.keys(), linewidth=0)
-    total = sum(account[name] for name in shares)
+    present = _shares_of(account)
+    axes.stackplot(time, [account[name] for name in present], colors=present.values(), labels=present.keys(), linewidth=0)
+    total = sum(account[name] for name in present)
     axes.fill_between(time, total, put_in, facecolor="none", edgecolor="black", hatch="//////", linewidth=0.0, label="residual")
     axes.plot(time, put_in, color="black", linewidth=1.2, linestyle="--", label="initial + external work")
     axes.set_ylim(0.0, 1.08 * max(np.max(put_in), np.max(total)))
@@ -27,7 +33,7 @@ def _lines(axes, time, account, scale):
     def line(values, **style):
         axes.semilogy(time, np.where(values > floor, values, np.nan), **style)
 
-    for name, colour in shares.items():
+    for name, colour in _shares_of(account).items():
         line(account[name], color=colour, linewidth=1.6)
     line(account["residual"], color="black", linewidth=1.0, label="residual: lost")
     line(-account["residual"], color="black", linewidth=1.0, linestyle=":", label="residual: created")

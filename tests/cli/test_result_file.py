@@ -79,7 +79,7 @@ class ResultFile(CommandLineTest):
             damage = last["damage"][body == 0]
             self.assertTrue(np.all((damage >= 0.0) & (damage < 1.0)) and np.max(damage) > 0.1)
             self.assertEqual(np.sum(last["decohesion"][()] >= 1.0), summary["failure"]["separated"])
-            for share in ("kinetic", "elastic", "plastic", "damage", "fracture", "external", "residual"):
+            for share in ("kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "external", "residual"):
                 self.assertEqual(result[f"series/{share}"][-1], summary["energy"][share], share)
 
     def test_outputs_fall_on_multiples(self):

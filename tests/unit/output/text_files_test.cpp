@@ -46,9 +46,8 @@ TEST_CASE("energy.csv grows by rows that round-trip, and can be continued", "[ou
     EnergyCsv csv = EnergyCsv::create(path);
     for (int row = 0; row < 3; ++row) csv.append(0.1 * row, row, energy);
     CHECK(csv.rows() == 3);
-    CHECK_THAT(
-        content(path),
-        contains_text("time,step,kinetic,elastic,plastic,damage,fracture,external,residual\n0,0,4,0.1,"));
+    CHECK_THAT(content(path), contains_text("time,step,kinetic,elastic,plastic,damage,fracture,external,"
+                                            "residual,contact,friction\n0,0,4,0.1,"));
   }
   std::ofstream(path, std::ios::app) << "0.3,3,4,0";  // cut off by a kill
   CHECK_THROWS_WITH(EnergyCsv::reopen(path, 4), contains_text("holds 3 rows, fewer than the 4"));
@@ -56,7 +55,7 @@ TEST_CASE("energy.csv grows by rows that round-trip, and can be continued", "[ou
   csv.append(0.2, 7, energy);
   const std::string text = content(path);
   CHECK(std::count(text.begin(), text.end(), '\n') == 4);
-  CHECK(text.ends_with("\n0.2,7,4,0.1,1,2,0.5,-1,1.4000000000000004\n"));
+  CHECK(text.ends_with("\n0.2,7,4,0.1,1,2,0.5,-1,1.4000000000000004,0,0\n"));
   std::ofstream(directory.path() / "other") << "a,b\n";
   CHECK_THROWS_AS(EnergyCsv::reopen(directory.path() / "other", 0), FileError);
   CHECK_THROWS_AS(EnergyCsv::create(directory.path() / "absent" / "energy.csv"), FileError);

@@ -1,0 +1,83 @@
+#pragma once
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mpm/contact/pair_law.hpp"
+#include "mpm/contact/pairs.hpp"
+#include "mpm/system.hpp"
+
+namespace vitrum::mpm {
+
+/// Two bodies that may touch.
+struct BodyPair {
+  std::size_t a, b;  ///< a < b
+  PairStiffness law;
+  double friction;  ///< Coulomb's coefficient; infinite: they stick
+};
+
+/// What has passed between two bodies since the start.
+struct ContactHistory {
+  Vector impulse{};                                            ///< N s, on a (per radian or per metre)
+  double friction_work = 0.0;                                  ///< J (per radian or per metre)
+  double least_gap = std::numeric_limits<double>::infinity();  ///< m, of patches opposite each other
+};
+
+/// Bodies with velocity fields of their own (Body::field), which touch where patches of their surfaces do: a
+/// penalty, whose energy is stored, and Coulomb's friction. Forces act on the particles that carry the
+/// patches (Particles::contact_force), so that every integrator of particles and nodes takes them as it takes
+/// stress.
+class Contact {
+ public:
+  /// patches: by body. slip_speed: m/s, at which friction has its full size.
+  Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches,
+          double slip_speed);
+
+  /// Before an explicit step of `duration` seconds: gives particles the forces of contact at their present
+  /// places, books friction and impulses.
+  void begin_step(System& system, double duration);
+  /// After it, particles having moved: the energy stored now goes to the record, and how patches have moved
+  /// is what friction acts against next.
+  void end_step(System& system, double duration);
+
+  /// Places patches with their carriers and computes their forces; the energy stored, J (per radian or
+  /// metre).
+  double evaluate(const System& system);
+
+  std::span<const BodyPair> pairs() const { return pairs_; }
+  std::span<const ContactHistory> history() const { return history_; }
+
+  /// What a run must know to go on: by name.
+  std::vector<double> state() const;
+  /// Takes up again what `state` said, particles having been restored. False: it is not this scene's.
+  bool restore(const System& system, std::span<const double> state);
+
+ private:
+  struct Touch {
+    std::size_t pair;    ///< of bodies
+    std::uint32_t a, b;  ///< patches, counted over all bodies
+    PairForce force;
+  };
+  void find_carriers(const System& system);
+  void place_patches(const System& system);
+  void find_touches();
+  Vector rub(const System& system, const Touch& touch, double duration, double& work) const;
+  void push(System& system, std::size_t patch, std::size_t body, const Vector& force, double couple) const;
+
+  std::vector<BodyPair> pairs_;
+  std::vector<ContactHistory> history_;  // by pair
+  double slip_speed_;
+  std::vector<Patch> patches_;          // of all bodies
+  std::vector<std::size_t> first_;      // of each body's patches, and their number
+  std::vector<std::uint32_t> carrier_;  // by patch: place of its particle in the columns
+  std::size_t sorted_ = 0;              // Grid::times_sorted when carriers were found
+  bool found_ = false;                  // carriers are
+  bool evaluated_ = false;              // touches are those of the particles' present places
+  std::vector<PlacedPatch> placed_, before_;
+  std::vector<double> mirrored_, mirrored_before_;
+  std::vector<Vector> velocity_;  // m/s, by patch, in the last step
+  std::vector<Touch> touches_;
+  PairSearch search_;
+};
+
+}  // namespace vitrum::mpm

@@ -1,0 +1,90 @@
+"""Bodies with velocity fields of their own: what a scene says, and what a run keeps of it."""
+import json
+import unittest
+
+import h5py
+import numpy as np
+
+from support import CommandLineTest, here, overrides, read_csv, read_summary
+
+slide = here / "scenes" / "slide.toml"
+rods = here / "scenes" / "rods.toml"
+
+
+class Contact(CommandLineTest):
+    def fields(self, out):
+        with h5py.File(out / "result.h5") as result:
+            return {f"{step}/{name}": data[()].tobytes() for step in result["steps"]
+                    for name, data in result[f"steps/{step}/particles"].items()}
+
+    def test_bits(self):
+        """Threads and an interruption change nothing."""
+        for method in ("explicit",):
+            run = ("--set", f'integrator.method="{method}"')
+            whole = self.run_scene(f"whole-{method}", *run, "--threads", "1", scene=slide)
+            fields, energy = self.fields(whole), read_summary(whole)["energy"]
+            shared = self.run_scene(f"shared-{method}", *run, "--threads", "3", scene=slide)
+            self.assertEqual(self.fields(shared), fields)
+            self.assertEqual(read_summary(shared)["energy"], energy)
+            (whole / "summary.json").unlink()
+            self.vitrum("run", slide, "--out", whole, *run, "--resume")
+            self.assertEqual(self.fields(whole), fields)
+            resumed = read_summary(whole)
+            self.assertEqual(resumed["energy"], energy)
+            self.assertEqual(resumed["contacts"], read_summary(shared)["contacts"])
+
+    def test_account(self):
+        out = self.run_scene("out", scene=slide)
+        summary, rows = read_summary(out), read_csv(out / "energy.csv")
+        energy, (pair,) = summary["energy"], summary["contacts"]
+        self.assertLess(abs(energy["relative_residual"]), 0.01)
+        self.assertGreater(energy["friction"], 10.0)
+        self.assertGreaterEqual(np.min(np.diff(rows["friction"])), 0.0)
+        self.assertGreater(np.max(rows["contact"]), 1.0)
+        self.assertEqual(pair["bodies"], ["plate", "block"])
+        self.assertAlmostEqual(pair["friction_work"], energy["friction"], delta=1e-9)
+        # The block's momentum has changed by what it has given to the plate.
+        block = summary["bodies"]["block"]
+        start = block["mass"] * np.array([60.0, -20.0])
+        np.testing.assert_allclose(start - block["momentum"], pair["impulse"], rtol=1e-9, atol=1e-12)
+        self.assertLess(-0.25e-3, pair["least_gap"])
+        self.assertLess(pair["least_gap"], 0.0)
+
+    def test_warning(self):
+        """Who says nothing is told that bodies are welded; who says `single` means it."""
+        bare = self.folder / "bare.toml"
+        bare.write_text(rods.read_text().replace('[contact]\nmethod = "single"', ""))
+        warned = json.loads(self.vitrum("check", bare, "--json").stdout)["warnings"]
+        self.assertRegex("\n".join(warned), r"bare\.toml:\d+:\d+: key 'body\.1': bodies 'comes' and 'waits' are welded where they meet: "
+                                            r".*contact\.method = \"bodies\"")
+        self.assertRegex(self.vitrum("run", bare, "--out", "bare").stderr, "welded")
+        for method in ("single", "bodies"):
+            said = json.loads(self.vitrum("check", bare, "--json", "--set", f'contact.method="{method}"').stdout)["warnings"]
+            self.assertFalse(any("welded" in line for line in said), said)
+        apart = json.loads(self.vitrum("check", bare, "--json", *overrides(body__0__velocity__0=-1.0, body__0__box__min__0=-0.02, body__0__box__max__0=-0.01)).stdout)["warnings"]
+        self.assertFalse(any("welded" in line for line in apart), apart)
+
+    def test_malformed(self):
+        pair = "[{{bodies=[{}], friction=0.1}}]"
+        for value, message in (('"plate"', "expected a list of the names of two bodies"), ('"plate","plate"', "expected every entry once"),
+                               ('"plate","blok"', 'found "blok", expected one of "plate", "block"; did you mean \'block\'?')):
+            answer = self.vitrum("check", slide, "--set", "contact.pair=" + pair.format(value), status=2)
+            self.assertIn(message, answer.stderr)
+        twice = '[{bodies=["plate","block"],friction=0.1},{bodies=["block","plate"],friction=0.1}]'
+        self.assertIn("no other [[contact.pair]]", self.vitrum("check", slide, "--set", "contact.pair=" + twice, status=2).stderr)
+        for key, value in (("friction", -0.1), ("stiffness", 0.0), ("depth", 3.0), ("slip_speed", 0.0), ("method", '"glue"')):
+            self.assertIn(f"contact.{key}", self.vitrum("check", slide, "--set", f"contact.{key}={value}", status=2).stderr)
+
+    def test_pairs(self):
+        """A pair's friction is its own."""
+        work = {}
+        for friction in (0.0, 0.1):
+            out = self.run_scene(f"pair-{friction}", "--set",
+                                 f'contact.pair=[{{bodies=["block","plate"], friction={friction}}}]', scene=slide)
+            work[friction] = read_summary(out)["energy"]["friction"]
+        self.assertEqual(work[0.0], 0.0)
+        self.assertGreater(work[0.1], 1.0)
+
+
+if __name__ == "__main__":
+    unittest.main()

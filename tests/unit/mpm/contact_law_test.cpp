@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <numbers>
+
+#include "mpm/contact/pair_law.hpp"
+#include "mpm/contact/pairs.hpp"
+#include "support/random_states.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum::mpm;
+using vitrum::test::Random;
+
+namespace {
+
+PlacedPatch random_patch(Random& random, double angle) {
+  return {{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)},
+          {},
+          angle + random.uniform(-1.0, 1.0),
+          random.uniform(0.5, 1.5),
+          random.uniform(0.5, 2.0)};
+}
+
+constexpr PairStiffness law{3.0, 0.3};
+
+}  // namespace
+
+TEST_CASE("Forces and couples of a pair are the derivatives of its energy, and make no momentum",
+          "[contact]") {
+  Random random(11);
+  int touching = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const PlacedPatch a = random_patch(random, 0.3), b = random_patch(random, 0.3 + std::numbers::pi);
+    const PairForce f = pair_force(a, b, law);
+    if (f.energy == 0.0) continue;
+    ++touching;
+    constexpr double step = 1e-6;
+    const auto slope = [&](auto&& move_by) {
+      PlacedPatch low_a = a, low_b = b, high_a = a, high_b = b;
+      move_by(low_a, low_b, -step), move_by(high_a, high_b, step);
+      return (pair_force(high_a, high_b, law).energy - pair_force(low_a, low_b, law).energy) / (2.0 * step);
+    };
+    constexpr double margin = 1e-5;
+    for (std::size_t c = 0; c < 2; ++c) {
+      CHECK(-f.force[c] ==
+            Approx(slope([c](auto&, auto& to, double by) { to.place[c] += by; })).margin(margin));
+      CHECK(f.force[c] ==
+            Approx(slope([c](auto& to, auto&, double by) { to.place[c] += by; })).margin(margin));
+    }
+    CHECK(-f.couple_a == Approx(slope([](auto& to, auto&, double by) { to.angle += by; })).margin(margin));
+    CHECK(-f.couple_b == Approx(slope([](auto&, auto& to, double by) { to.angle += by; })).margin(margin));
+    const Vector arm{b.place[0] - a.place[0], b.place[1] - a.place[1]};
+    CHECK(f.couple_a + f.couple_b + cross(arm, f.force) == Approx(0.0).margin(1e-14));
+    CHECK(f.pressure >= 0.0);
+    CHECK(f.overlap > 0.0);
+    CHECK(f.overlap <= 1.0);
+  }
+  CHECK(touching > 500);
+}
+
+TEST_CASE("Forces of a pair change by no more than a bound times what patches are moved by", "[contact]") {
+  Random random(5);
+  for (int n = 0; n < 20000; ++n) {
+    const PlacedPatch a = random_patch(random, 0.0);
+    PlacedPatch b = random_patch(random, std::numbers::pi);
+    const PairForce before = pair_force(a, b, law);
+    constexpr double by = 1e-4;
+    b.place[0] += random.uniform(-by, by), b.place[1] += random.uniform(-by, by);
+    b.angle += random.uniform(-by, by);
+    const PairForce after = pair_force(a, b, law);
+    CHECK(std::hypot(after.force[0] - before.force[0], after.force[1] - before.force[1]) < 60.0 * by);
+    CHECK(std::abs(after.couple_b - before.couple_b) < 60.0 * by);
+  }
+}
+
+TEST_CASE("A row of patches feels the same pressure wherever those of the other body lie", "[contact]") {
+  // The other's may be shorter by a whole number: the shares of opposite patches add up to one.
+  for (const int parts : {1, 2, 3})
+    for (double offset = 0.0; offset < 1.0; offset += 0.13) {
+      const PlacedPatch a{{0.0, 0.0}, {}, 0.5 * std::numbers::pi, 1.0, 1.0};
+      double force = 0.0, along = 0.0;
+      for (int k = -3 * parts; k <= 3 * parts; ++k) {
+        const PlacedPatch b{{(k + offset) / parts, -0.1}, {}, -0.5 * std::numbers::pi, 1.0 / parts, 1.0};
+        const PairForce f = pair_force(a, b, law);
+        force -= f.force[1], along += f.force[0];
+      }
+      CHECK(force == Approx(-law.stiffness * 0.1).epsilon(1e-12));
+      CHECK(along == Approx(0.0).margin(1e-12));
+    }
+}
+
+TEST_CASE("The search finds the pairs that are near, in their order", "[contact]") {
+  Random random(3);
+  PairSearch search;
+  for (int n = 0; n < 40; ++n) {
+    const auto patches = [&](std::size_t count, double from) {
+      std::vector<PlacedPatch> list(count);
+      for (PlacedPatch& p : list)
+        p.place = {from + random.uniform(0.0, 3.0), random.uniform(0.0, n % 2 == 0 ? 1.0 : 9.0)};
+      return list;
+    };
+    const std::vector<PlacedPatch> a = patches(60, 0.0), b = patches(80, random.uniform(-4.0, 4.0));
+    constexpr double reach = 0.4;
+    std::vector<std::array<std::size_t, 2>> near, found;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j)
+        if (std::abs(a[i].place[0] - b[j].place[0]) <= reach &&
+            std::abs(a[i].place[1] - b[j].place[1]) <= reach)
+          near.push_back({i, j});
+    search.find(a, b, reach, [&](std::uint32_t i, std::uint32_t j) { found.push_back({i, j}); });
+    CHECK(found == near);
+  }
+}

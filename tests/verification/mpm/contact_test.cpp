@@ -1,0 +1,167 @@
+// Contact of bodies against what mechanics knows in closed form.
+#include <cmath>
+#include <numbers>
+
+#include "mpm/contact/contact.hpp"
+#include "support/mpm_run.hpp"
+#include "support/random_states.hpp"
+#include "tests/catch.hpp"
+
+using namespace vitrum;
+using namespace vitrum::test;
+
+namespace {
+
+/// Glass without Poisson's effect, c = 5000 m/s, in cells of 0.5 mm with four particles each.
+MpmScene bars(double gap, double va, double vb, const std::string& scheme = "musl",
+              const std::string& contact = "") {
+  MpmScene scene;
+  scene.shape = "gimp", scene.cell = 0.5e-3, scene.scheme = scheme, scene.pace = "";
+  scene.density = 2500.0, scene.young = 62.5e9, scene.poisson = 0.0;
+  const auto moving = [](double v) { return "particles_per_cell = 4\nvelocity = " + pair({v, 0.0}); };
+  scene.tables = "[contact]\nmethod = \"bodies\"\n" + contact +
+                 body("a", box({-0.025, 0.0}, {0.0, 0.001}), moving(va)) +
+                 body("b", box({gap, 0.0}, {0.025 + gap, 0.001}), moving(vb));
+  return scene;
+}
+
+double mean_velocity(MpmRun& run, std::size_t body, std::size_t component = 0) {
+  return mass_mean(run.particles(body), run.particles(body).velocity[component]);
+}
+
+}  // namespace
+
+TEST_CASE("Two bars touch when they meet, part after the wave has run through them, and exchange velocities",
+          "[contact]") {
+  for (const char* scheme : {"usf", "musl"}) {
+    CAPTURE(scheme);
+    MpmRun run(bars(2e-3, 7.0, -93.0, scheme));
+    double first = 0.0, last = 0.0;
+    run.watch = [&](double step) {
+      if (run.system.record.contact > 0.0) {
+        if (first == 0.0) first = run.system.time;
+        last = run.system.time + step;
+      }
+      return true;
+    };
+    run.advance(45e-6);
+    const double e = (mean_velocity(run, 1) - mean_velocity(run, 0)) / 100.0;
+    INFO("first " << first << " last " << last << " e " << e << " residual "
+                  << run.energy().relative_residual());
+    CHECK(first == Approx(20e-6).margin(0.01 * 0.5e-3 / 100.0));
+    CHECK(last - first == Approx(10.1e-6).margin(0.2e-6));
+    CHECK(e >= 0.96);
+    CHECK(std::abs(run.energy().relative_residual()) < 0.005);
+    CHECK(run.energy().contact == 0.0);
+    CHECK(std::abs(total_momentum(run.system)[0] - (7.0 - 93.0) * 2500.0 * 0.025 * 0.001) < 1e-12);
+  }
+}
+
+TEST_CASE("Bars that begin in touch part as well", "[contact]") {
+  MpmRun run(bars(0.0, 0.0, -10.0));
+  run.advance(30e-6);
+  CHECK(mean_velocity(run, 0) == Approx(-10.0).margin(0.4));
+  CHECK(mean_velocity(run, 1) == Approx(0.0).margin(0.4));
+}
+
+TEST_CASE(
+    "What a collision does to two bars depends neither on the frame of reference nor on where it happens",
+    "[contact]") {
+  Random random(29);
+  for (const double speed : {1.0, 10.0, 100.0, 400.0}) {
+    double least = 2.0, greatest = 0.0;
+    for (int n = 0; n < 3; ++n) {
+      const double drift = random.uniform(-speed, speed),
+                   gap = random.uniform(0.0, std::min(1e-3, speed * 5e-6));
+      CAPTURE(speed, drift, gap);
+      MpmRun run(bars(gap, drift + speed, drift, n % 2 == 0 ? "musl" : "usf"));
+      run.advance(gap / speed + 20e-6);
+      const double e = (mean_velocity(run, 1) - mean_velocity(run, 0)) / speed;
+      least = std::min(least, e), greatest = std::max(greatest, e);
+      CHECK(std::abs(run.energy().relative_residual()) < 0.01);
+    }
+    INFO(speed << ": " << least << " to " << greatest);
+    CHECK(greatest - least < 0.03);
+    CHECK(least > 0.93);
+  }
+}
+
+TEST_CASE("A block that is pressed onto another one slides as Coulomb says", "[contact]") {
+  // 10 MPa by the block's weight; the one below is held.
+  for (const double friction : {0.0, 0.3}) {
+    CAPTURE(friction);
+    MpmScene scene;
+    scene.shape = "gimp", scene.cell = 1e-3, scene.scheme = "musl", scene.pace = "";
+    scene.density = 2500.0, scene.young = 72e9, scene.poisson = 0.0;
+    scene.tables =
+        fmt::format("[contact]\nmethod = \"bodies\"\nfriction = {}\n", friction) +
+        body("base", box({-0.01, -0.004}, {0.03, 0.0}), "particles_per_cell = 4") +
+        body("block", box({0.0, 0.0}, {0.01, 0.005}), "particles_per_cell = 4\nvelocity = [50.0, 0.0]") +
+        hold("[-inf, -inf]", "[inf, -0.003]", "\"x\", \"y\"") +
+        "[gravity]\nacceleration = [0.0, -800000.0]\n";
+    MpmRun run(scene);
+    double least_work = 0.0;
+    run.watch = [&](double) {
+      least_work = std::min(least_work, run.system.record.friction);
+      return true;
+    };
+    run.advance(100e-6);
+    const double v = mean_velocity(run, 1), m = 2500.0 * 0.01 * 0.005;
+    INFO("v " << v << " friction " << run.energy().friction << " loss " << 0.5 * m * (2500.0 - v * v));
+    if (friction == 0.0)
+      CHECK(v == Approx(50.0).margin(0.001));
+    else
+      CHECK(v == Approx(50.0 - friction * 800000.0 * 100e-6).margin(0.5));
+    CHECK(run.energy().friction == Approx(0.5 * m * (2500.0 - v * v)).epsilon(0.01).margin(1e-2));
+    CHECK(least_work >= 0.0);
+  }
+}
+
+TEST_CASE("A sphere that meets a half space: Hertz's force and duration", "[contact]") {
+  MpmScene scene;
+  scene.geometry = "axisymmetric", scene.shape = "gimp", scene.cell = 0.5e-3, scene.scheme = "musl";
+  scene.pace = "";
+  scene.density = 2500.0, scene.young = 72e9, scene.poisson = 0.25;
+  scene.tables = "[contact]\nmethod = \"bodies\"\n" +
+                 body("glass", box({0.0, -0.02}, {0.02, 0.0}), "particles_per_cell = 4") +
+                 "[[body]]\nname = \"ball\"\nmaterial = \"steel\"\nparticles_per_cell = 4\n"
+                 "disk = {centre = [0.0, 0.00501], radius = 0.005}\nvelocity = [0.0, -50.0]\n"
+                 "[material.steel]\ndensity = 7800.0\nyoung = 195e9\npoisson = 0.25\n";
+  MpmRun run(scene);
+  const double pi = std::numbers::pi, R = 0.005, v = 50.0;
+  const double modulus = 1.0 / ((1.0 - 0.0625) / 72e9 + (1.0 - 0.0625) / 195e9),
+               mass = 4.0 / 3.0 * pi * R * R * R * 7800.0, k = 4.0 / 3.0 * modulus * std::sqrt(R);
+  const double depth = std::pow(1.25 * mass * v * v / k, 0.4);
+  double impulse = 0.0, peak = 0.0, first = 0.0, last = 0.0;
+  run.watch = [&](double step) {
+    const double now = run.system.contact->history()[0].impulse[1];
+    peak = std::max(peak, -2.0 * pi * (now - impulse) / step);
+    if (now != impulse) {
+      if (first == 0.0) first = run.system.time;
+      last = run.system.time;
+    }
+    impulse = now;
+    return true;
+  };
+  run.advance(24e-6);
+  INFO("peak " << peak << " of " << k * std::pow(depth, 1.5) << ", duration " << last - first << " of "
+               << 2.943 * depth / v);
+  CHECK(peak == Approx(k * std::pow(depth, 1.5)).epsilon(0.02));
+  CHECK(last - first == Approx(2.943 * depth / v).epsilon(0.03));
+}
+
+TEST_CASE("Newton's cradle: the last of three bars flies on", "[contact]") {
+  MpmScene scene = bars(0.0, 0.0, 0.0);
+  scene.tables = "[contact]\nmethod = \"bodies\"\n";
+  for (int n = 0; n < 3; ++n)
+    scene.tables +=
+        body(std::string(1, static_cast<char>('a' + n)),
+             box({0.012 * n + (n > 0 ? 0.002 : 0.0), 0.0}, {0.012 * (n + 1) + (n > 0 ? 0.002 : 0.0), 0.001}),
+             "particles_per_cell = 4\nvelocity = " + pair({n == 0 ? 10.0 : 0.0, 0.0}));
+  MpmRun run(scene);
+  run.advance(230e-6);
+  CHECK(mean_velocity(run, 0) == Approx(0.0).margin(0.6));
+  CHECK(mean_velocity(run, 1) == Approx(0.0).margin(0.6));
+  CHECK(mean_velocity(run, 2) == Approx(10.0).margin(0.6));
+  CHECK(std::abs(run.energy().relative_residual()) < 0.01);
+}
