@@ -28,12 +28,12 @@ class CompositeCourse final : public Course {
     const double fraction = problem_->fraction(parameter, y);
     const CompositeState next = problem_->state(parameter, y);  // the problem looks at state_
     state_ = next;
-    law_.settle(mode_, state_, path_);
+    law_.project(mode_, state_, path_);
     return fraction;
   }
 
   void transition(Guard guard, double fraction, PointReport& report) override {
-    law_.leave(mode_, static_cast<Root>(guard), state_, path_, fraction, report);
+    law_.transition(mode_, static_cast<CompositeGuard>(guard), state_, path_, fraction, report);
     find_direction();
   }
   void put(PointState& point) const override {
@@ -57,8 +57,8 @@ class CompositeCourse final : public Course {
   const CompositeModes& law_;
   const StrainPath& path_;
   CompositeState state_;
-  EvolutionMode mode_;
-  EvolutionRates direction_;
+  CompositeMode mode_;
+  CompositeRates direction_;
   std::optional<ModeProblem> problem_;
 };
 

@@ -1,5 +1,6 @@
 #include "materials/composite/decohesion.hpp"
 
+#include "materials/composite/tolerances.hpp"
 #include "materials/root.hpp"
 
 namespace vitrum {
@@ -52,7 +53,7 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
     high = std::min(left, std::min(2.0 * high, high + 0.02));
   }
   const double step = first_reached(low, high, in_equilibrium);
-  if (left - step < 1e-12) return {1.0, 0.0, 0.0, true};  // what strength is left is rounding
+  if (left - step < tolerance::rounding) return {1.0, 0.0, 0.0, true};  // what strength is left is rounding
 
   // m = u0 (tau_n, tau_t / C_m^2) / N at the end of the step (eq. 16).
   const double s = carried(step);

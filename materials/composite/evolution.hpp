@@ -1,117 +1,108 @@
 #pragma once
-#include <array>
-#include <cstddef>
-#include <limits>
-#include <optional>
-
-#include "materials/composite/state.hpp"
-#include "materials/event_driven.hpp"
+#include "materials/composite/models.hpp"
 
 namespace vitrum {
 
-/// Which of the laws act. Frozen between events.
-struct EvolutionMode {
-  enum class Plane {
-    intact,      ///< not localised
-    held,        ///< localised, traction below the strength: elastic with the opening frozen
-    decohering,  ///< the plane softens, eqs. 13-18
-    open,        ///< separated, faces free of traction
-    closed       ///< separated, faces in contact without friction
-  };
+/// The composite as an ODE: rates within a mode, guards that end it, transitions to the next.
+template <bool has_damage, Yielding yielding, bool has_decohesion>
+class CompositeEvolution final : public CompositeModes,
+                                 private CompositeModels<has_damage, yielding, has_decohesion> {
+  using Models = CompositeModels<has_damage, yielding, has_decohesion>;
 
-  bool tension = false;   ///< side of zero mean elastic strain
-  bool damaging = false;  ///< crack density follows eq. 7
-  bool flowing = false;   ///< on the yield surface
-  bool pulled = false;    ///< decohering under tensile normal traction (otherwise by shear alone)
-  bool viscous = false;   ///< decohering with a viscosity
-  bool sliding =
-      false;  ///< held at zero mean strain, which either side leads back to: keeps the side it came from
-  Plane plane = Plane::intact;
-  double coefficient = 0.0;                                     ///< C(R) of eq. 7
-  double hardening_modulus = 0.0;                               ///< h of eq. 21 on the present branch, Pa
-  double branch_end = std::numeric_limits<double>::infinity();  ///< plastic strain at which it ends
-
-  bool decohering() const { return plane == Plane::decohering; }
-  bool separated() const { return plane == Plane::open || plane == Plane::closed; }
-  /// Whether anything but the elastic strain changes along a curve; otherwise the state moves along a
-  /// straight line.
-  bool evolves() const { return damaging || flowing || decohering(); }
-  /// Whether the strain may have to go back for the state to stay in equilibrium: a plane that softens
-  /// without viscosity, or softening flow behind faces that give way.
-  bool may_snap_back() const {
-    return (decohering() && !viscous) || (flowing && separated() && hardening_modulus < 0.0);
-  }
-};
-
-/// d(state)/d(parameter). The parameter is the fraction of the path, except in a mode that may snap back:
-/// there `fraction` falls to zero as the state approaches that, where the rates with respect to the fraction
-/// would be infinite.
-struct EvolutionRates {
-  /// Where it is less than this, the state can no longer follow the path: what would take a millionth of the
-  /// increment is a jump.
-  static constexpr double least_fraction = 1e-6;
-
-  double fraction = 1.0;
-  SymmetricTensor elastic_strain{};
-  double crack_density = 0.0, plastic_strain = 0.0, decohesion = 0.0, opening_n = 0.0, opening_t = 0.0;
-  double plastic = 0.0, damage = 0.0, fracture = 0.0;  ///< dissipation, J/m^3
-
-  bool advances() const { return fraction > least_fraction; }
-};
-
-/// How the rates of a decohering plane (without flow) depend on what the plane has done: rows lambda, normal
-/// and tangential opening (m), fracture energy (J/m^3); columns lambda, normal and tangential opening.
-using OpeningJacobian = std::array<std::array<double, 3>, 4>;
-
-/// What may end a mode.
-enum class Root : unsigned char {
-  side,          ///< the mean elastic strain changes sign
-  damage,        ///< eq. 7 reaches the crack density held so far
-  exhausted,     ///< the crack density reaches its limit
-  yield,         ///< the yield surface is reached
-  unload,        ///< the plastic multiplier vanishes
-  branch,        ///< hardening or softening ends
-  localisation,  ///< Phi = 0, or H = H_cr
-  decohesion,    ///< the traction reaches the strength of the plane
-  stall,         ///< the rate of decohesion vanishes
-  snap_back,     ///< no equilibrium is left beyond
-  pull,          ///< the normal traction of a softening plane changes sign
-  separation,    ///< lambda = 1
-  closure,       ///< the gap vanishes
-  opening,       ///< the contact traction vanishes
-};
-
-/// The composite as an ODE between events, whatever its models.
-class CompositeModes : public EventDriven {
  public:
-  Course& enter(CourseRoom& room, const PointState& point, const StrainPath& path,
-                PointReport& report) const final;
-  virtual CompositeState load(const PointState& point) const = 0;
-  virtual void store(const CompositeState& state, PointState& point) const = 0;
-  /// The mode at the start of a path. Performs the jumps that the state asks for (snap-back, excess shear)
-  /// and books them.
-  virtual EvolutionMode first_mode(CompositeState& state, const StrainPath& path,
-                                   PointReport& report) const = 0;
-  /// The mode after `root` ended `mode` at `fraction` of the path; performs the jumps and records the event.
-  virtual void leave(EvolutionMode& mode, Root root, CompositeState& state, const StrainPath& path,
-                     double fraction, PointReport& report) const = 0;
-  virtual EvolutionRates rates(const EvolutionMode& mode, const CompositeState& state,
-                               const StrainPath& path) const = 0;
-  /// d(rates)/d(state) of a plane that decoheres with a viscosity, without plastic flow.
-  virtual OpeningJacobian opening_jacobian(const EvolutionMode& mode, const CompositeState& state,
-                                           const StrainPath& path) const = 0;
-  /// Guards of the mode (by Root).
-  virtual void guards(const EvolutionMode& mode, const CompositeState& state, const StrainPath& path,
-                      Guards& values) const = 0;
-  /// Drift correction: puts a state that was integrated with errors back onto the yield surface, the strength
-  /// of the plane, and traction-free faces.
-  virtual void settle(const EvolutionMode& mode, CompositeState& state, const StrainPath& path) const = 0;
-  /// Moduli that give the stress of a state (damaged bulk modulus only under tension), and those of the
-  /// virgin material.
-  virtual Moduli secant_moduli(const CompositeState& state) const = 0;
-  virtual Moduli virgin_moduli() const = 0;
-  /// u0 of eq. 15, m.
-  virtual double reference_opening() const = 0;
+  using State = CompositeState;
+  using Models::has_yield;
+  using Models::members;
+
+  using Models::Models;
+
+  CompositeState load(const PointState& point) const override { return load_state(*this, point); }
+  void store(const CompositeState& s, PointState& point) const override { store_state(*this, s, point); }
+  CompositeMode first_mode(CompositeState& state, const StrainPath& path, PointReport& report) const override;
+  void transition(CompositeMode& mode, CompositeGuard root, CompositeState& state, const StrainPath& path,
+                  double fraction, PointReport& report) const override;
+  CompositeRates rates(const CompositeMode& mode, const CompositeState& state,
+                       const StrainPath& path) const override;
+  OpeningJacobian opening_jacobian(const CompositeMode& mode, const CompositeState& state,
+                                   const StrainPath& path) const override;
+  void guards(const CompositeMode& mode, const CompositeState& state, const StrainPath& path,
+              Guards& values) const override;
+  void project(const CompositeMode& mode, CompositeState& state, const StrainPath& path) const override;
+  Moduli secant_moduli(const CompositeState& s) const override { return Models::secant_moduli(s); }
+  Moduli virgin_moduli() const override { return elastic_; }
+  double reference_opening() const override { return has_decohesion ? decohesion_.reference_opening() : 0.0; }
+
+ private:
+  using Models::damage_;
+  using Models::damage_localisation;
+  using Models::decohesion_;
+  using Models::elastic_;
+  using Models::enter_separated;
+  using Models::fall_to_admissible_stress;
+  using Models::flow;
+  using Models::flow_behind_crack;
+  using Models::flow_direction;
+  using Models::flow_localisation;
+  using Models::free_faces;
+  using Models::open_plane;
+  using Models::secant;
+  using Models::separate;
+  using Models::snap_back;
+  using Models::softens_past_equilibrium;
+  using Models::start_decohesion;
+  using Models::stored_energy;
+  using Models::strain_left_by_faces;
+  using Models::surface_acts;
+  using Models::traction;
+  using Models::von_mises_;
+  using Models::yield_function;
+  using Models::yield_gradient;
+  using Models::yield_scale;
+
+  // rates.hpp
+  /// A softening plane: what drives it, and per unit of lambda: strain of the jump, stiffness and fall of
+  /// strength (Pa).
+  struct Softening {
+    PlaneDrive drive{};
+    SymmetricTensor jump{};
+    double stiffness = 0.0, slope = 0.0, strength = 0.0;
+  };
+  Softening softening(const CompositeMode& mode, const CompositeState& s, const Moduli& moduli) const;
+  /// Change of the effective traction that a strain brings, Pa.
+  static double traction_change(const DecohesionPlane& plane, const PlaneDrive& drive, const Moduli& moduli,
+                                const SymmetricTensor& strain) {
+    const SymmetricTensor stress = moduli.stress(strain);
+    return drive.normal * plane.normal_part(stress) + drive.tangential * plane.tangential_part(stress);
+  }
+
+  // transitions.hpp, projection.hpp
+  void select_models(CompositeMode& mode, std::optional<CompositeGuard> root, CompositeState& s,
+                     const StrainPath& path, double fraction, PointReport& report) const;
+  void select_damage(CompositeMode& mode, CompositeState& s, const StrainPath& path, double fraction,
+                     PointReport& report) const;
+  bool strength_is_spent(const CompositeState& s, const StrainPath& path) const;
+  bool perform_jump(CompositeMode& mode, CompositeState& s, const StrainPath& path, double fraction,
+                    bool runs_away, PointReport& report) const;
+  bool is_near_surface(const CompositeMode& mode, const CompositeState& s) const;
+  void step_inside_surface(const CompositeMode& mode, CompositeState& s) const;
+  bool on_surface(const CompositeMode& mode, const CompositeState& s, bool reached) const;
+  bool at_strength(const CompositeMode& mode, const CompositeState& s) const;
+  void set_branch(CompositeMode& mode, const CompositeState& s) const;
+  bool select_flow_and_opening(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
+                               bool may_flow, bool may_open) const;
+
+  // jumps.hpp
+  void resume_after_jump(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;
+  void fall_at_constant_strain(CompositeMode& mode, CompositeState& s, double fraction,
+                               PointReport& report) const;
+  bool snaps_back_alone(CompositeMode mode, const CompositeState& s, const StrainPath& path) const;
+  bool flow_with_plane(CompositeState& s, const Moduli& m, double amount) const;
+  void fall_with_plane(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;
+  bool localises(const CompositeMode& mode, const CompositeState& s) const;
+  void localise(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;
+  void release_plane(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;
+  void separate_plane(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;
+  bool shear_carries_strength(const CompositeMode& mode, const CompositeState& s) const;
 };
 
 }  // namespace vitrum

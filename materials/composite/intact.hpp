@@ -1,12 +1,14 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/closed_form.hpp"
+
+// An increment before localisation, leg by leg.
 
 namespace vitrum {
 
 /// Follows the increment until it ends or the point localises; returns the fraction done.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::advance_intact(CompositeState& s, const SymmetricTensor& strain, double duration,
-                                          PointReport& report) const {
+double CompositeClosedForm<D, Y, C>::advance_intact(CompositeState& s, const SymmetricTensor& strain,
+                                                    double duration, PointReport& report) const {
   const double strain_trace = trace(strain), start_trace = trace(s.elastic_strain);
   bool tension = start_trace > 0.0 || (start_trace == 0.0 && strain_trace > 0.0);
   double done = 0.0;
@@ -23,7 +25,7 @@ double Composite<D, Y, C>::advance_intact(CompositeState& s, const SymmetricTens
       if (tension) leg.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
 
     double end = i + 1 == most_legs ? 1.0 : leg_end(leg);
-    Followed followed = follow(leg, end);
+    Followed followed = state_along(leg, end);
     bool localises = false;
     if constexpr (C) localises = find_localisation(leg, end, followed);
 
@@ -50,10 +52,11 @@ double Composite<D, Y, C>::advance_intact(CompositeState& s, const SymmetricTens
 /// Shear that only tension allowed (no yield there) falls to the surface at the instant at which pressure
 /// begins.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::release_excess_shear(CompositeState& s, double done, PointReport& report) const {
+void CompositeClosedForm<D, Y, C>::release_excess_shear(CompositeState& s, double done,
+                                                        PointReport& report) const {
   const Moduli moduli = secant(false, s.crack_density);
   const double excess = yield_function(s, moduli);
-  if (!(excess > 1e-9 * moduli.shear * norm(deviator(s.elastic_strain)))) return;
+  if (!(excess > tolerance::on_surface * moduli.shear * norm(deviator(s.elastic_strain)))) return;
   report.dissipation.plastic += flow(s, moduli, excess);
   report.record(EventKind::yield, done);
 }
@@ -61,7 +64,7 @@ void Composite<D, Y, C>::release_excess_shear(CompositeState& s, double done, Po
 /// The state after a fraction of a leg: damage from the mean strain (secant), then the return to the yield
 /// surface.
 template <bool D, Yielding Y, bool C>
-auto Composite<D, Y, C>::follow(const Leg& leg, double fraction) const -> Followed {
+auto CompositeClosedForm<D, Y, C>::state_along(const Leg& leg, double fraction) const -> Followed {
   Followed f{leg.start};
   CompositeState& s = f.state;
   s.elastic_strain += fraction * leg.strain;
@@ -81,45 +84,15 @@ auto Composite<D, Y, C>::follow(const Leg& leg, double fraction) const -> Follow
   return f;
 }
 
-/// Returns to the yield surface; gives the energy dissipated, J/m^3.
-template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::flow(CompositeState& s, const Moduli& moduli,
-                                [[maybe_unused]] double violated_before) const {
-  if constexpr (Y == Yielding::von_mises) {
-    const SymmetricTensor d = deviator(s.elastic_strain);
-    const double trial = 2.0 * moduli.shear * norm(d);
-    if (trial <= von_mises_.radius(s.plastic_strain)) return 0.0;
-    const PlasticReturn result = von_mises_.flow(trial, moduli.shear, s.plastic_strain);
-    const double mean = trace(s.elastic_strain) / 3.0;
-    s.elastic_strain = mean * identity() + (1.0 - 2.0 * moduli.shear * result.flow / trial) * d;
-    return result.dissipation;
-  } else if constexpr (Y == Yielding::drucker_prager) {
-    return drucker_prager_.flow(s.elastic_strain, moduli, violated_before, s.plastic_strain).dissipation;
-  } else {
-    return 0.0;
-  }
-}
-
-/// Stress measure minus strength, Pa; > 0 outside the yield surface.
-template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::yield_function(const CompositeState& s, const Moduli& moduli) const {
-  if constexpr (Y == Yielding::von_mises)
-    return von_mises_.yield_function(s.elastic_strain, moduli, s.plastic_strain);
-  else if constexpr (Y == Yielding::drucker_prager)
-    return drucker_prager_.yield_function(s.elastic_strain, moduli);
-  else
-    return -1.0;
-}
-
 /// Fraction of the leg at which the mean elastic strain changes sign; 1 where it does not.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::leg_end(const Leg& leg) const {
+double CompositeClosedForm<D, Y, C>::leg_end(const Leg& leg) const {
   if constexpr (!D && Y != Yielding::drucker_prager) return 1.0;  // both sides follow one law
   const double start = trace(leg.start.elastic_strain), change = trace(leg.strain);
   if (leg.tension ? start + change >= 0.0 : start + change <= 0.0) return 1.0;
   if constexpr (Y == Yielding::drucker_prager) {
     if (!leg.tension && drucker_prager_.dilatancy() > 0.0) {
-      const auto tensile = [&](double f) { return trace(follow(leg, f).state.elastic_strain) > 0.0; };
+      const auto tensile = [&](double f) { return trace(state_along(leg, f).state.elastic_strain) > 0.0; };
       return tensile(1.0) ? first_reached(0.0, 1.0, tensile) : 1.0;
     }
   }
@@ -128,8 +101,8 @@ double Composite<D, Y, C>::leg_end(const Leg& leg) const {
 
 /// Whether the state admits a discontinuity: growing damage (Phi) or softening flow (H >= H_cr, eq. 25).
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
-                                     [[maybe_unused]] const CompositeState& s) const {
+bool CompositeClosedForm<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
+                                               [[maybe_unused]] const CompositeState& s) const {
   if constexpr (C && D)
     if (leg.tension && s.crack_density > leg.start.crack_density && damage_localisation(s) <= 0.0)
       return true;
@@ -151,9 +124,9 @@ bool Composite<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
 /// which the normals in the plane lose and the hoop normal gains; it falls with damage. Between two of
 /// `turning_points` that ratio rises or falls throughout.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
-                                      [[maybe_unused]] const CompositeState& from,
-                                      [[maybe_unused]] const CompositeState& to) const {
+bool CompositeClosedForm<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
+                                                [[maybe_unused]] const CompositeState& from,
+                                                [[maybe_unused]] const CompositeState& to) const {
   if constexpr (C && D) {
     const double t = trace(to.elastic_strain);
     if (leg.tension && to.crack_density > leg.start.crack_density && t > 0.0) {
@@ -178,7 +151,8 @@ bool Composite<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
 /// Fractions of a leg at which c^2/r^2 of its deviator is stationary, in rising order within (0, end); `end`
 /// where there are none.
 template <bool D, Yielding Y, bool C>
-std::array<double, 2> Composite<D, Y, C>::turning_points([[maybe_unused]] const Leg& leg, double end) const {
+std::array<double, 2> CompositeClosedForm<D, Y, C>::turning_points([[maybe_unused]] const Leg& leg,
+                                                                   double end) const {
   std::array<double, 2> at{end, end};
   if constexpr (C && Y == Yielding::von_mises) {
     // c = c0 + c1 f, r^2 = A + 2 B f + C f^2: c = 0, and c1 r^2 = c (r^2)'/2, which is linear.
@@ -197,7 +171,7 @@ std::array<double, 2> Composite<D, Y, C>::turning_points([[maybe_unused]] const 
 /// Looks for the first localisation of the leg; when there is one, shortens `end` to it and sets the state
 /// there.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed& at_end) const {
+bool CompositeClosedForm<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed& at_end) const {
   const bool grows = at_end.state.crack_density > leg.start.crack_density;
   bool softens = false;
   if constexpr (Y == Yielding::von_mises)
@@ -206,11 +180,14 @@ bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed
               leg.start.plastic_strain < von_mises_.floor_strain();
   if (!grows && !softens) return false;
   // Flow bends the path along which damage grows: the bound takes short pieces of it for straight.
+  constexpr double growth_of_piece = 0.02, flow_of_piece = 1.0e-3, most_pieces = 128.0;
   int pieces = 1;
   if constexpr (D && Y == Yielding::von_mises) {
     const double growth = (at_end.state.crack_density - leg.start.crack_density) / crack_density_limit,
-                 flow = at_end.state.plastic_strain - leg.start.plastic_strain;
-    if (grows && flow > 0.0) pieces = static_cast<int>(std::min(1.0 + growth / 0.02 + flow / 1.0e-3, 128.0));
+                 flowed = at_end.state.plastic_strain - leg.start.plastic_strain;
+    if (grows && flowed > 0.0)
+      pieces =
+          static_cast<int>(std::min(1.0 + growth / growth_of_piece + flowed / flow_of_piece, most_pieces));
   }
   const std::array<double, 2> turns = turning_points(leg, end);
   Place from{0.0, leg.start};
@@ -218,10 +195,10 @@ bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed
     const double start = from.fraction, length = cut - start;
     for (int i = 1; i <= pieces && length > 0.0; ++i) {
       const double f = i < pieces ? start + length * i / pieces : cut;
-      const Place to{f, f < end ? follow(leg, f).state : at_end.state};
+      const Place to{f, f < end ? state_along(leg, f).state : at_end.state};
       constexpr int halvings = 20;  // what is critical for less than a millionth of a leg may be missed
       if (find_critical(leg, from, to, halvings, end)) {
-        at_end = follow(leg, end);
+        at_end = state_along(leg, end);
         return true;
       }
       from = to;
@@ -232,56 +209,27 @@ bool Composite<D, Y, C>::find_localisation(const Leg& leg, double& end, Followed
 
 /// The first critical fraction between two places of a leg, by halving what may hold one.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::find_critical(const Leg& leg, const Place& from, const Place& to, int halvings,
-                                       double& first) const {
+bool CompositeClosedForm<D, Y, C>::find_critical(const Leg& leg, const Place& from, const Place& to,
+                                                 int halvings, double& first) const {
   if (!may_localise(leg, from.state, to.state)) return false;
   if (halvings == 0) {
     if (!is_critical(leg, to.state)) return false;
     first = first_reached(from.fraction, to.fraction,
-                          [&](double f) { return is_critical(leg, follow(leg, f).state); });
+                          [&](double f) { return is_critical(leg, state_along(leg, f).state); });
     return true;
   }
   const double f = 0.5 * (from.fraction + to.fraction);
-  const Place middle{f, follow(leg, f).state};
+  const Place middle{f, state_along(leg, f).state};
   return find_critical(leg, from, middle, halvings - 1, first) ||
          find_critical(leg, middle, to, halvings - 1, first);
 }
 
-/// Fixes plane, strength (eq. 18) and effective length from the state at localisation.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::start_decohesion(bool tension, [[maybe_unused]] bool damage_grows,
-                                          CompositeState& s) const {
-  const Moduli moduli = secant(tension, s.crack_density);
-  const bool all = decohesion_.parameters().search_all_planes;
-  double best = std::numeric_limits<double>::infinity();
-  if constexpr (D) {
-    if (tension && damage_grows) {
-      const InPlanePrincipal p = in_plane_principal(s.elastic_strain);
-      const bool hoop = all && s.elastic_strain.tt > p.major;
-      const double largest = hoop ? s.elastic_strain.tt : p.major;
-      best = damage_.bifurcation(s.crack_density / crack_density_limit, trace(s.elastic_strain), largest);
-      s.normal = hoop ? PlaneVector{} : PlaneVector{p.direction_r, p.direction_z};
-    }
-  }
-  if constexpr (Y == Yielding::von_mises) {
-    if (von_mises_.modulus(s.plastic_strain) < 0.0) {
-      const CriticalPlane plane =
-          von_mises_critical_plane(2.0 * moduli.shear * deviator(s.elastic_strain), moduli,
-                                   von_mises_.tangent_drop(moduli.shear, s.plastic_strain), all);
-      if (1.0 - plane.severity < best) s.normal = plane.normal;
-    }
-  }
-  const DecohesionPlane plane{s.normal};
-  const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
-  s.cohesive_strength = decohesion_.effective_traction(t.normal, t.tangential);
-  s.effective_length = plane.effective_length(cell_);
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
-                                       [[maybe_unused]] const CompositeState& end,
-                                       [[maybe_unused]] double end_fraction, [[maybe_unused]] double done,
-                                       [[maybe_unused]] PointReport& report) const {
+void CompositeClosedForm<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
+                                                 [[maybe_unused]] const CompositeState& end,
+                                                 [[maybe_unused]] double end_fraction,
+                                                 [[maybe_unused]] double done,
+                                                 [[maybe_unused]] PointReport& report) const {
   [[maybe_unused]] const auto of_increment = [done](double f) { return done + f * (1.0 - done); };
   if constexpr (D)
     if (leg.start.crack_density == 0.0 && end.crack_density > 0.0)
@@ -290,8 +238,8 @@ void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
     if (end.plastic_strain <= leg.start.plastic_strain) return;
     const Moduli moduli = secant(leg.tension, leg.start.crack_density);
     // A start clearly inside the surface is an entry into plastic flow; on the surface, flow merely goes on.
-    const bool inside =
-        yield_function(leg.start, moduli) < -1e-9 * moduli.shear * norm(deviator(end.elastic_strain));
+    const bool inside = yield_function(leg.start, moduli) <
+                        -tolerance::on_surface * moduli.shear * norm(deviator(end.elastic_strain));
     if (inside || leg.start.plastic_strain == 0.0) {
       const auto yields = [&](double f) {
         CompositeState s = leg.start;
@@ -307,7 +255,7 @@ void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
   if constexpr (Y == Yielding::von_mises) {
     const double peak = von_mises_.peak_strain();
     if (leg.start.plastic_strain < peak && end.plastic_strain >= peak) {
-      const auto past = [&](double f) { return follow(leg, f).state.plastic_strain >= peak; };
+      const auto past = [&](double f) { return state_along(leg, f).state.plastic_strain >= peak; };
       report.record(EventKind::peak, of_increment(first_reached(0.0, end_fraction, past)));
     }
   }
@@ -315,8 +263,8 @@ void Composite<D, Y, C>::record_events([[maybe_unused]] const Leg& leg,
 
 /// Energy set free by the growth of damage on a leg, J/m^3.
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const CompositeState& end,
-                                              double end_fraction) const {
+double CompositeClosedForm<D, Y, C>::damage_dissipation(const Leg& leg, const CompositeState& end,
+                                                        double end_fraction) const {
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
   const double x0 = leg.start.crack_density / crack_density_limit;
   const double x1 = end.crack_density / crack_density_limit;
@@ -326,13 +274,13 @@ double Composite<D, Y, C>::damage_dissipation(const Leg& leg, const CompositeSta
                       end_fraction);
   };
   // Growth begins where eq. 7 catches up with the crack density held so far, and ends at its cap.
-  const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - 1e-12);
+  const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - tolerance::rounding);
   const double from = grows_from_start ? 0.0 : fraction_at(leg.start.crack_density);
   const double to = x1 >= 1.0 ? fraction_at(crack_density_limit) : end_fraction;
   const auto elastic_strain_at = [&](double fraction) {
     // (Plastic flow takes part of the deviator: between both states the path is taken for straight.)
     if constexpr (Y == Yielding::von_mises)
-      if (fraction > 0.0) return follow(leg, fraction).state.elastic_strain;
+      if (fraction > 0.0) return state_along(leg, fraction).state.elastic_strain;
     return leg.start.elastic_strain + fraction * leg.strain;
   };
   return damage_.dissipation(x0, x1, elastic_strain_at(from), elastic_strain_at(to));

@@ -1,89 +1,29 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/evolution.hpp"
 
-// What happens to a state at one instant, and what asks for it: falls onto the yield surface, the plane's
-// birth, snap-back and separation.
+// What happens to a state at one instant, and the mode after it.
 
 namespace vitrum {
 
-/// Shear that only tension allowed, or an initial stress, falls onto the yield surface at constant strain;
-/// whether there was any.
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::fall_onto_surface(const EvolutionMode& mode, CompositeState& s,
-                                           Dissipation& dissipation) const {
-  if (!surface_acts(mode.tension)) return false;
-  const Moduli m = secant(mode.tension, s.crack_density);
-  const double excess = yield_function(s, m);
-  if (!(excess > 1e-9 * m.shear * norm(deviator(s.elastic_strain)))) return false;
-  if (C && mode.separated()) {
-    flow_behind_crack(s, excess, dissipation);
-    return true;
-  }
-  const double stored = m.energy(s.elastic_strain);
-  flow(s, m, excess);
-  dissipation.plastic += std::max(0.0, stored - m.energy(s.elastic_strain));
-  return true;
-}
-
-/// Whether the traction is more than the plane bears.
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::is_overloaded(const EvolutionMode& mode, const CompositeState& s) const {
-  if (mode.viscous || !(mode.plane == EvolutionMode::Plane::held || mode.decohering())) return false;
-  const PlaneTraction t =
-      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s.crack_density));
-  return decohesion_.effective_traction(t.normal, t.tangential) >
-         decohesion_.strength(s.decohesion, s.cohesive_strength) + 1e-9 * s.cohesive_strength;
-}
-
-/// Stress outside the yield surface falls onto it at constant strain. That may load a plane with more than it
-/// bears, which then opens at once, and leaves stress outside again. is_yield: the first fall is an event.
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::meet_surfaces(EvolutionMode& mode, CompositeState& s, double fraction,
-                                       PointReport& report, bool is_yield) const {
-  if constexpr (has_yield) {
-    constexpr int most_turns = 64;
-    for (int turn = 0; turn < most_turns && fall_onto_surface(mode, s, report.dissipation); ++turn) {
-      if (turn == 0 && is_yield) report.record(EventKind::yield, fraction);
-      if constexpr (C) {
-        if (!is_overloaded(mode, s)) break;
-        snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
-        if (is_separated(s)) enter_separated(mode, s, fraction, report);
-      }
-    }
-  }
-}
-
 /// After a jump, which may have left the yield surface to either side: what lies inside flows no more.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::land(EvolutionMode& mode, CompositeState& s, double fraction,
-                              PointReport& report) const {
-  meet_surfaces(mode, s, fraction, report);
+void CompositeEvolution<D, Y, C>::resume_after_jump(CompositeMode& mode, CompositeState& s, double fraction,
+                                                    PointReport& report) const {
+  fall_to_admissible_stress(mode, s, fraction, report);
   mode.flowing = mode.flowing && is_near_surface(mode, s);
-}
-
-/// Whether the strength falls faster than elastic unloading at constant strain.
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::falls_through(const EvolutionMode& mode, const CompositeState& s) const {
-  const Moduli m = secant(mode.tension, s.crack_density);
-  SymmetricTensor given = flow_direction(s);
-  if constexpr (C) {
-    double gap = 0.0, slip = 0.0;
-    if (mode.separated()) given = give_way(mode, s, m, given, gap, slip);
-  }
-  return contract(yield_gradient(s, m), given) + VonMisesLaw::factor * mode.hardening_modulus <= 0.0;
 }
 
 /// Softening faster than elasticity unloads: the stress falls at constant strain to where the strength meets
 /// it.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_at_constant_strain(EvolutionMode& mode, CompositeState& s, double fraction,
-                                                 PointReport& report) const {
+void CompositeEvolution<D, Y, C>::fall_at_constant_strain(CompositeMode& mode, CompositeState& s,
+                                                          double fraction, PointReport& report) const {
   const double stored = stored_energy(s);
   if (!C || !mode.separated()) {
-    s.elastic_strain += 1e-12 * deviator(s.elastic_strain);
+    s.elastic_strain += tolerance::rounding * deviator(s.elastic_strain);
     flow(s, secant(mode.tension, s.crack_density), 0.0);
     report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
-    land(mode, s, fraction, report);
+    resume_after_jump(mode, s, fraction, report);
     return;
   }
   if constexpr (C) {
@@ -95,7 +35,7 @@ void Composite<D, Y, C>::fall_at_constant_strain(EvolutionMode& mode, CompositeS
       const CompositeState before = s;
       s.elastic_strain -= std::min(step, norm(deviator(s.elastic_strain))) * flow_direction(s);
       s.plastic_strain = i + 1 == steps ? mode.branch_end : s.plastic_strain + step;
-      relax_crack(s);
+      free_faces(s);
       const bool tension = trace(s.elastic_strain) > 0.0;
       if (i > 0 && yield_function(s, secant(tension, s.crack_density)) < 0.0) {
         s = before;
@@ -106,14 +46,14 @@ void Composite<D, Y, C>::fall_at_constant_strain(EvolutionMode& mode, CompositeS
     Dissipation beyond;
     flow_behind_crack(s, std::numeric_limits<double>::infinity(), beyond);
     report.dissipation += beyond;
-    land(mode, s, fraction, report);
+    resume_after_jump(mode, s, fraction, report);
   }
 }
 
 /// Whether the plane loses its equilibrium even where the material behind it does not flow.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::snaps_back_alone(EvolutionMode mode, const CompositeState& s,
-                                          const StrainPath& path) const {
+bool CompositeEvolution<D, Y, C>::snaps_back_alone(CompositeMode mode, const CompositeState& s,
+                                                   const StrainPath& path) const {
   mode.flowing = false;
   return !rates(mode, s, path).advances();
 }
@@ -121,7 +61,7 @@ bool Composite<D, Y, C>::snaps_back_alone(EvolutionMode mode, const CompositeSta
 /// A bit of plastic flow at constant strain, after which the plane opens as its strength demands. False, with
 /// the plane as it was, where no equilibrium is left to it.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::flow_with_plane(CompositeState& s, const Moduli& m, double amount) const {
+bool CompositeEvolution<D, Y, C>::flow_with_plane(CompositeState& s, const Moduli& m, double amount) const {
   s.elastic_strain -= std::min(amount, norm(deviator(s.elastic_strain))) * flow_direction(s);
   s.plastic_strain += amount;
   const DecohesionPlane plane{s.normal};
@@ -140,8 +80,8 @@ bool Composite<D, Y, C>::flow_with_plane(CompositeState& s, const Moduli& m, dou
 /// point falls at constant strain. It flows along the branches of its strength in small steps, and the plane
 /// opens with it, until the stress meets the yield surface from outside, or the plane separates.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::fall_with_plane(EvolutionMode& mode, CompositeState& s, double fraction,
-                                         PointReport& report) const {
+void CompositeEvolution<D, Y, C>::fall_with_plane(CompositeMode& mode, CompositeState& s, double fraction,
+                                                  PointReport& report) const {
   if constexpr (Y == Yielding::von_mises && C) {
     constexpr int branches = 3, steps = 64;
     const Moduli m = secant(mode.tension, s.crack_density);
@@ -164,7 +104,7 @@ void Composite<D, Y, C>::fall_with_plane(EvolutionMode& mode, CompositeState& s,
           return flow_with_plane(tried, m, part * amount) && yield_function(tried, m) < 0.0;
         };
         const double part = first_reached(0.0, 1.0, met);
-        if (part < 1e-6) continue;
+        if (part < tolerance::jump) continue;
         s = before;
         flow_with_plane(s, m, part * amount);
       }
@@ -174,16 +114,16 @@ void Composite<D, Y, C>::fall_with_plane(EvolutionMode& mode, CompositeState& s,
         decohesion_.surface_energy(decohesion, s.decohesion, s.cohesive_strength) / s.effective_length;
     report.dissipation.fracture += surface;
     report.dissipation.plastic += std::max(0.0, stored - stored_energy(s) - surface);
-    mode.plane = EvolutionMode::Plane::held;
+    mode.plane = CompositeMode::Plane::held;
     if (together)
-      land(mode, s, fraction, report);
+      resume_after_jump(mode, s, fraction, report);
     else
       separate_plane(mode, s, fraction, report);
   }
 }
 
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::localises(const EvolutionMode& mode, const CompositeState& s) const {
+bool CompositeEvolution<D, Y, C>::localises(const CompositeMode& mode, const CompositeState& s) const {
   if constexpr (D && C)
     if (mode.damaging && s.crack_density > 0.0 && damage_localisation(s) <= 0.0) return true;
   if constexpr (Y == Yielding::von_mises && C)
@@ -194,48 +134,41 @@ bool Composite<D, Y, C>::localises(const EvolutionMode& mode, const CompositeSta
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::localise(EvolutionMode& mode, CompositeState& s, double fraction,
-                                  PointReport& report) const {
+void CompositeEvolution<D, Y, C>::localise(CompositeMode& mode, CompositeState& s, double fraction,
+                                           PointReport& report) const {
   if constexpr (C) {
     start_decohesion(mode.tension, mode.damaging, s);
     mode.damaging = false;
-    mode.plane = EvolutionMode::Plane::held;
+    mode.plane = CompositeMode::Plane::held;
     report.record(EventKind::localisation, fraction);
   }
 }
 
 /// Snap-back at constant strain: to the next equilibrium (q < 1), or to separation.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::release_plane(EvolutionMode& mode, CompositeState& s, double fraction,
-                                       PointReport& report) const {
+void CompositeEvolution<D, Y, C>::release_plane(CompositeMode& mode, CompositeState& s, double fraction,
+                                                PointReport& report) const {
   if constexpr (C) {
     snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
-    mode.plane = EvolutionMode::Plane::held;
+    mode.plane = CompositeMode::Plane::held;
     if (is_separated(s)) enter_separated(mode, s, fraction, report);
-    land(mode, s, fraction, report);
+    resume_after_jump(mode, s, fraction, report);
   }
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::separate_plane(EvolutionMode& mode, CompositeState& s, double fraction,
-                                        PointReport& report) const {
+void CompositeEvolution<D, Y, C>::separate_plane(CompositeMode& mode, CompositeState& s, double fraction,
+                                                 PointReport& report) const {
   if constexpr (C) {
     separate(s, secant(mode.tension, s.crack_density), report.dissipation);
     enter_separated(mode, s, fraction, report);
-    land(mode, s, fraction, report);
+    resume_after_jump(mode, s, fraction, report);
   }
 }
 
-/// The plane has just separated.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::enter_separated(EvolutionMode& mode, const CompositeState& s, double fraction,
-                                         PointReport& report) const {
-  mode.plane = s.opening_n > 0.0 ? EvolutionMode::Plane::open : EvolutionMode::Plane::closed;
-  report.record(EventKind::separation, fraction);
-}
-
-template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::shear_carries_strength(const EvolutionMode& mode, const CompositeState& s) const {
+bool CompositeEvolution<D, Y, C>::shear_carries_strength(const CompositeMode& mode,
+                                                         const CompositeState& s) const {
   const PlaneTraction t =
       traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s.crack_density));
   return mode.viscous || decohesion_.effective_traction(0.0, t.tangential) >

@@ -2,22 +2,28 @@
 
 #include <stdexcept>
 
+#include "materials/composite/elastic_runs.hpp"
+#include "materials/composite/flow_behind_crack.hpp"
 #include "materials/composite/intact.hpp"
 #include "materials/composite/jumps.hpp"
-#include "materials/composite/law.hpp"
 #include "materials/composite/localised.hpp"
-#include "materials/composite/modes.hpp"
+#include "materials/composite/plane.hpp"
+#include "materials/composite/projection.hpp"
 #include "materials/composite/rates.hpp"
-#include "materials/composite/settle.hpp"
 #include "materials/composite/start.hpp"
+#include "materials/composite/transitions.hpp"
+#include "materials/composite/yield_surface.hpp"
 
 namespace vitrum {
 namespace {
 
 template <bool D, Yielding Y>
 std::shared_ptr<const Material> with_decohesion(const MaterialParameters& p, double cell) {
-  if (p.decohesion) return std::make_shared<Batch<Composite<D, Y, true>>>(p, Composite<D, Y, true>(p, cell));
-  return std::make_shared<Batch<Composite<D, Y, false>>>(p, Composite<D, Y, false>(p, cell));
+  if (p.decohesion)
+    return std::make_shared<Batch<CompositeClosedForm<D, Y, true>>>(p,
+                                                                    CompositeClosedForm<D, Y, true>(p, cell));
+  return std::make_shared<Batch<CompositeClosedForm<D, Y, false>>>(p,
+                                                                   CompositeClosedForm<D, Y, false>(p, cell));
 }
 
 template <bool D>

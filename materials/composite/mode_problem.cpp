@@ -20,13 +20,13 @@ ModeProblem::Values ModeProblem::state_values(const Of& of) {
   return v;
 }
 
-ModeProblem::Values ModeProblem::rate_values(const EvolutionRates& r) {
+ModeProblem::Values ModeProblem::rate_values(const CompositeRates& r) {
   Values v = state_values(r);
   v[plastic] = r.plastic, v[damage] = r.damage, v[fracture] = r.fracture, v[fraction_of_path] = r.fraction;
   return v;
 }
 
-ModeProblem::ModeProblem(const CompositeModes& law, const EvolutionMode& mode, const StrainPath& path,
+ModeProblem::ModeProblem(const CompositeModes& law, const CompositeMode& mode, const StrainPath& path,
                          const CompositeState& state, double fraction)
     : law_(law),
       mode_(mode),
@@ -127,7 +127,7 @@ void ModeProblem::guards(double parameter, const double* y, Guards& values) cons
 
 void ModeProblem::project(double parameter, double* y) const {
   CompositeState s = state(parameter, y);
-  law_.settle(mode_, s, path_);
+  law_.project(mode_, s, path_);
   const Values v = state_values(s);
   for (std::size_t i = 0; i < size_; ++i)
     if (is_settled(unknowns_[i])) y[i] = v[unknowns_[i]] / scales_[i];

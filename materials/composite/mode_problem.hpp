@@ -1,5 +1,5 @@
 #pragma once
-#include "materials/composite/evolution.hpp"
+#include "materials/composite/mode.hpp"
 
 namespace vitrum {
 
@@ -8,7 +8,7 @@ namespace vitrum {
 class ModeProblem final : public ModeEquations {
  public:
   /// The mode goes on from `state` at `fraction` of the path. The arguments must outlive the problem.
-  ModeProblem(const CompositeModes& law, const EvolutionMode& mode, const StrainPath& path,
+  ModeProblem(const CompositeModes& law, const CompositeMode& mode, const StrainPath& path,
               const CompositeState& state, double fraction);
 
   std::size_t size() const override { return size_; }
@@ -59,7 +59,7 @@ class ModeProblem final : public ModeEquations {
   /// Of a state, or of its rates; energies and the fraction are 0.
   template <class Of>
   static Values state_values(const Of& of);
-  static Values rate_values(const EvolutionRates& r);
+  static Values rate_values(const CompositeRates& r);
   /// What y stands for; what is no unknown has the value of the start.
   Values values(const double* y) const;
   static bool is_deviator(Unknown u) { return u >= deviator_rr && u <= deviator_rz; }
@@ -71,7 +71,7 @@ class ModeProblem final : public ModeEquations {
   void add(Unknown unknown, double scale) { unknowns_[size_] = unknown, scales_[size_++] = scale; }
 
   const CompositeModes& law_;
-  const EvolutionMode& mode_;
+  const CompositeMode& mode_;
   const StrainPath& path_;
   const CompositeState& start_;
   double start_fraction_, parameter_end_;

@@ -1,74 +1,30 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/evolution.hpp"
+
+// Rates, their derivatives, and the guards of a mode.
 
 namespace vitrum {
 
-/// Whether a yield surface exists on this side of zero mean strain (Drucker-Prager: under pressure only).
-template <bool D, Yielding Y, bool C>
-constexpr bool Composite<D, Y, C>::surface_acts(bool tension) {
-  return Y == Yielding::von_mises || (Y == Yielding::drucker_prager && !tension);
-}
-
-/// d f / d e of the yield function, Pa.
-template <bool D, Yielding Y, bool C>
-SymmetricTensor Composite<D, Y, C>::yield_gradient(const CompositeState& s, const Moduli& m) const {
-  const SymmetricTensor d = deviator(s.elastic_strain);
-  const double size = norm(d);
-  const SymmetricTensor n = size > 0.0 ? (1.0 / size) * d : SymmetricTensor{};
-  if constexpr (Y == Yielding::drucker_prager)
-    return (2.0 * m.shear * std::sqrt(1.5)) * n + (parameters_.drucker_prager->beta * m.bulk) * identity();
-  return (2.0 * m.shear) * n;
-}
-
-/// d eps_p / d I.
-template <bool D, Yielding Y, bool C>
-SymmetricTensor Composite<D, Y, C>::flow_direction(const CompositeState& s) const {
-  const SymmetricTensor d = deviator(s.elastic_strain);
-  const double size = norm(d);
-  const SymmetricTensor n = size > 0.0 ? (1.0 / size) * d : SymmetricTensor{};
-  if constexpr (Y == Yielding::drucker_prager) {
-    const double psi = drucker_prager_.dilatancy(), unit = std::sqrt(1.5 + psi * psi / 3.0);
-    return (std::sqrt(1.5) / unit) * n + (psi / (3.0 * unit)) * identity();
-  }
-  return n;
-}
-
-/// What is left of an elastic strain (or its rate) when the faces of a separated plane give way; `gap` and
-/// `slip` get the jumps (m).
-template <bool D, Yielding Y, bool C>
-SymmetricTensor Composite<D, Y, C>::give_way(const EvolutionMode& mode, const CompositeState& s,
-                                             const Moduli& m, const SymmetricTensor& strain, double& gap,
-                                             double& slip) const {
-  const DecohesionPlane plane{s.normal};
-  const PlaneTraction t = traction(plane, strain, m);
-  const double L = s.effective_length;
-  gap = mode.plane == EvolutionMode::Plane::open && t.normal_stiffness > 0.0
-            ? L * t.normal / t.normal_stiffness
-            : 0.0;
-  slip = t.tangential_stiffness > 0.0 ? L * t.tangential / t.tangential_stiffness : 0.0;
-  return strain - plane.jump_strain(gap, slip, L);
-}
-
 /// What drives a softening plane and how it answers.
 template <bool D, Yielding Y, bool C>
-auto Composite<D, Y, C>::softening(const EvolutionMode& mode, const CompositeState& s, const Moduli& m) const
-    -> Softening {
+auto CompositeEvolution<D, Y, C>::softening(const CompositeMode& mode, const CompositeState& s,
+                                            const Moduli& m) const -> Softening {
   const DecohesionPlane plane{s.normal};
   Softening w;
   const PlaneTraction t = traction(plane, s.elastic_strain, m);
   w.drive = decohesion_.drive(t.normal, t.tangential, mode.pulled);
   const double u0 = decohesion_.reference_opening();
   w.jump = plane.jump_strain(u0 * w.drive.normal, u0 * w.drive.tangential, s.effective_length);
-  w.stiffness = pull(plane, w.drive, m, w.jump);
+  w.stiffness = traction_change(plane, w.drive, m, w.jump);
   w.slope = decohesion_.strength_slope(s.decohesion, s.cohesive_strength);
   w.strength = decohesion_.strength(s.decohesion, s.cohesive_strength);
   return w;
 }
 
 template <bool D, Yielding Y, bool C>
-EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const CompositeState& s,
-                                         const StrainPath& path) const {
-  EvolutionRates r;
+CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, const CompositeState& s,
+                                                  const StrainPath& path) const {
+  CompositeRates r;
   const Moduli m = secant(mode.tension, s.crack_density);
   SymmetricTensor strain = path.strain;
   double thinning = 0.0;  // loss of |s| by the loss of stiffness, Pa per unit of the fraction
@@ -96,8 +52,8 @@ EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const Compos
   }
   if constexpr (C) {
     if (mode.separated()) {
-      strain = give_way(mode, s, m, strain, r.opening_n, r.opening_t);
-      if (mode.flowing) given = give_way(mode, s, m, direction, gap_of_flow, slip_of_flow);
+      strain = strain_left_by_faces(mode, s, m, strain, r.opening_n, r.opening_t);
+      if (mode.flowing) given = strain_left_by_faces(mode, s, m, direction, gap_of_flow, slip_of_flow);
     }
   }
   if constexpr (has_yield) {
@@ -126,9 +82,9 @@ EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const Compos
       } else {
         // Consistency on the plane and, where the material flows, on the yield surface; divided not by the
         // determinant but by its part without softening, which stays positive up to a snap-back and beyond.
-        const double a11 = w.stiffness + w.slope, b1 = pull(plane, w.drive, m, path.strain);
+        const double a11 = w.stiffness + w.slope, b1 = traction_change(plane, w.drive, m, path.strain);
         if (mode.flowing) {
-          const double a12 = pull(plane, w.drive, m, direction), a21 = contract(gradient, jump);
+          const double a12 = traction_change(plane, w.drive, m, direction), a21 = contract(gradient, jump);
           const double reference = w.stiffness * plastic_stiffness;
           r.fraction = (a11 * plastic_stiffness - a12 * a21) / reference;
           opening_rate = (b1 * plastic_stiffness - a12 * flow_drive) / reference;
@@ -163,9 +119,9 @@ EvolutionRates Composite<D, Y, C>::rates(const EvolutionMode& mode, const Compos
 }
 
 template <bool D, Yielding Y, bool C>
-OpeningJacobian Composite<D, Y, C>::opening_jacobian([[maybe_unused]] const EvolutionMode& mode,
-                                                     [[maybe_unused]] const CompositeState& s,
-                                                     [[maybe_unused]] const StrainPath& path) const {
+OpeningJacobian CompositeEvolution<D, Y, C>::opening_jacobian([[maybe_unused]] const CompositeMode& mode,
+                                                              [[maybe_unused]] const CompositeState& s,
+                                                              [[maybe_unused]] const StrainPath& path) const {
   OpeningJacobian J{};
   if constexpr (C) {
     const Moduli m = secant(mode.tension, s.crack_density);
@@ -195,87 +151,67 @@ OpeningJacobian Composite<D, Y, C>::opening_jacobian([[maybe_unused]] const Evol
   return J;
 }
 
-/// <= 0 where softening flow admits a discontinuity (H >= H_cr, eq. 25).
 template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::flow_localisation(const CompositeState& s, const Moduli& m, double modulus) const {
-  const CriticalPlane plane = von_mises_critical_plane(2.0 * m.shear * deviator(s.elastic_strain), m,
-                                                       VonMisesLaw::tangent_drop_of(m.shear, modulus),
-                                                       decohesion_.parameters().search_all_planes);
-  return 1.0 - plane.severity;
-}
-
-/// Largest normal strain among the planes that are searched.
-template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::largest_normal_strain(const SymmetricTensor& e) const {
-  const double in_plane = 0.5 * (e.rr + e.zz) + std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
-  return decohesion_.parameters().search_all_planes ? std::max(in_plane, e.tt) : in_plane;
-}
-
-/// <= 0 where growing damage admits a discontinuity (Phi).
-template <bool D, Yielding Y, bool C>
-double Composite<D, Y, C>::damage_localisation(const CompositeState& s) const {
-  const SymmetricTensor& e = s.elastic_strain;
-  if (!(trace(e) > 0.0)) return 1.0;
-  return damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest_normal_strain(e));
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::guards(const EvolutionMode& mode, const CompositeState& s, const StrainPath& path,
-                                Guards& g) const {
+void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const CompositeState& s,
+                                         const StrainPath& path, Guards& g) const {
   g.count = 0;
   const Moduli m = secant(mode.tension, s.crack_density);
   const double size = norm(path.strain), per_size = size > 0.0 ? 1.0 / size : 0.0;
   const double t = trace(s.elastic_strain);
-  const bool intact = mode.plane == EvolutionMode::Plane::intact;
+  const bool intact = mode.plane == CompositeMode::Plane::intact;
   if (!mode.sliding && (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0))))
-    g.add(Root::side, (mode.tension ? -t : t) * per_size);
+    g.add(CompositeGuard::mean_strain_sign, (mode.tension ? -t : t) * per_size);
   if constexpr (D) {
     if (mode.damaging) {
-      g.add(Root::exhausted, s.crack_density / crack_density_limit - 1.0);
-      if constexpr (C) g.add(Root::localisation, -damage_localisation(s));
+      g.add(CompositeGuard::exhausted, s.crack_density / crack_density_limit - 1.0);
+      if constexpr (C) g.add(CompositeGuard::localisation, -damage_localisation(s));
     } else if (intact && mode.tension && trace(path.strain) > 0.0 && s.crack_density < crack_density_limit) {
-      g.add(Root::damage, (t / 3.0 - damage_.mean_strain_at(s.crack_density, mode.coefficient)) * per_size);
+      g.add(CompositeGuard::damage,
+            (t / 3.0 - damage_.mean_strain_at(s.crack_density, mode.coefficient)) * per_size);
     }
   }
   const bool needs_rates = mode.flowing || (mode.decohering() && !mode.viscous);
-  const EvolutionRates r = needs_rates ? rates(mode, s, path) : EvolutionRates{};
+  const CompositeRates r = needs_rates ? rates(mode, s, path) : CompositeRates{};
   if constexpr (has_yield) {
     if (mode.flowing) {
-      g.add(Root::unload, -r.plastic_strain * per_size);
+      g.add(CompositeGuard::unload, -r.plastic_strain * per_size);
       if (mode.separated() && mode.may_snap_back())
-        g.add(Root::snap_back, 0.5 * EvolutionRates::least_fraction - r.fraction);
+        g.add(CompositeGuard::snap_back, 0.5 * CompositeRates::least_fraction - r.fraction);
       if constexpr (Y == Yielding::von_mises) {
-        if (std::isfinite(mode.branch_end)) g.add(Root::branch, s.plastic_strain / mode.branch_end - 1.0);
+        if (std::isfinite(mode.branch_end))
+          g.add(CompositeGuard::strength_branch, s.plastic_strain / mode.branch_end - 1.0);
         if constexpr (C)
           if (intact && mode.hardening_modulus < 0.0)
-            g.add(Root::localisation, -flow_localisation(s, m, mode.hardening_modulus));
+            g.add(CompositeGuard::localisation, -flow_localisation(s, m, mode.hardening_modulus));
       }
     } else if (surface_acts(mode.tension)) {
-      g.add(Root::yield, yield_function(s, m) / yield_scale());
+      g.add(CompositeGuard::yield, yield_function(s, m) / yield_scale());
     }
   }
   if constexpr (C) {
-    using Plane = EvolutionMode::Plane;
+    using Plane = CompositeMode::Plane;
     const DecohesionPlane plane{s.normal};
     const PlaneTraction traction_now = intact ? PlaneTraction{} : traction(plane, s.elastic_strain, m);
     if (mode.plane == Plane::held) {
       const double N = decohesion_.effective_traction(traction_now.normal, traction_now.tangential);
-      g.add(Root::decohesion,
+      g.add(CompositeGuard::decohesion,
             (N - decohesion_.strength(s.decohesion, s.cohesive_strength)) / s.cohesive_strength);
     } else if (mode.decohering()) {
       if (mode.viscous) {
         const Softening w = softening(mode, s, m);
-        g.add(Root::stall, (w.strength - w.drive.traction) / s.cohesive_strength);
+        g.add(CompositeGuard::opening_stops, (w.strength - w.drive.traction) / s.cohesive_strength);
       } else {
-        g.add(Root::stall, -r.decohesion * per_size * decohesion_.reference_opening() / s.effective_length);
-        g.add(Root::snap_back, 0.5 * EvolutionRates::least_fraction - r.fraction);
+        g.add(CompositeGuard::opening_stops,
+              -r.decohesion * per_size * decohesion_.reference_opening() / s.effective_length);
+        g.add(CompositeGuard::snap_back, 0.5 * CompositeRates::least_fraction - r.fraction);
       }
-      g.add(Root::pull, (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
-      g.add(Root::separation, s.decohesion - 1.0);
+      g.add(CompositeGuard::normal_traction_sign,
+            (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
+      g.add(CompositeGuard::separation, s.decohesion - 1.0);
     } else if (mode.plane == Plane::open) {
-      g.add(Root::closure, -s.opening_n * per_size / s.effective_length);
+      g.add(CompositeGuard::closure, -s.opening_n * per_size / s.effective_length);
     } else if (mode.plane == Plane::closed) {
-      g.add(Root::opening, traction_now.normal * per_size / elastic_.p_wave());
+      g.add(CompositeGuard::opening, traction_now.normal * per_size / elastic_.p_wave());
     }
   }
 }

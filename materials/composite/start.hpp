@@ -1,35 +1,34 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/closed_form.hpp"
 
 // What a given state asks for at the instant at which it is given.
 
 namespace vitrum {
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::judge([[maybe_unused]] CompositeState& s,
-                               [[maybe_unused]] PointReport& report) const {
+void CompositeClosedForm<D, Y, C>::judge([[maybe_unused]] CompositeState& s,
+                                         [[maybe_unused]] PointReport& report) const {
   if constexpr (dissipates) {
     if constexpr (D)
       if (!is_localised(s)) damage_at_once(s, report);
-    EvolutionMode mode;
+    CompositeMode mode;
     mode.tension = trace(s.elastic_strain) > 0.0;
     if constexpr (C)
       if (is_localised(s)) mode = localised_mode(s);
-    meet_surfaces(mode, s, 0.0, report);
+    fall_to_admissible_stress(mode, s, 0.0, report);
     if constexpr (C)
       if (is_localised(s) && is_overloaded(localised_mode(s), s))
-        give_way_at_once(s, Jump::snap_back, false, 0.0, report);
+        release_plane_at_once(s, Jump::snap_back, false, 0.0, report);
   }
 }
 
 /// The crack density of eq. 7 at the rate known so far, at constant strain; no more than admits a
 /// discontinuity, which then localises.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::damage_at_once(CompositeState& s, PointReport& report) const {
-  constexpr double rounding = 1e-9;  // of a state that was written along eq. 7
+void CompositeClosedForm<D, Y, C>::damage_at_once(CompositeState& s, PointReport& report) const {
   const double coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
   double density = damage_.target(trace(s.elastic_strain) / 3.0, coefficient);
-  if (!(density > s.crack_density * (1.0 + rounding))) return;
+  if (!(density > s.crack_density * (1.0 + tolerance::written))) return;
   bool localises = false;
   if constexpr (C) {
     // Phi changes sign once as the crack density grows.

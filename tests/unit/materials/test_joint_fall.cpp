@@ -43,19 +43,19 @@ TEST_CASE("where flow and decohesion drive each other the point falls and loses 
       CAPTURE(opening, n);
       const CompositeState start = on_both_surfaces(*steel, random);
       const StrainPath path{1e-3 * random.direction(), 1e-6, 1e-6};
-      EvolutionMode mode;
+      CompositeMode mode;
       mode.tension = trace(start.elastic_strain) > 0.0;
-      mode.flowing = true, mode.plane = EvolutionMode::Plane::decohering;
+      mode.flowing = true, mode.plane = CompositeMode::Plane::decohering;
       mode.pulled = normal_traction(start.stress, std::atan2(start.normal.z, start.normal.r)) > 0.0;
       mode.hardening_modulus = law.modulus(start.plastic_strain), mode.branch_end = law.floor_strain();
-      EvolutionMode without_flow = mode;
+      CompositeMode without_flow = mode;
       without_flow.flowing = false;
       if (!(steel->modes().rates(without_flow, start, path).fraction > 0.0))
         continue;  // the plane snaps back alone
 
       CompositeState s = start;
       PointReport report;
-      steel->modes().leave(mode, Root::snap_back, s, path, 0.5, report);
+      steel->modes().transition(mode, CompositeGuard::snap_back, s, path, 0.5, report);
       ++fell;
       const auto stored = [&](const CompositeState& of) {
         return steel->secant_moduli(of).energy(of.elastic_strain);

@@ -83,8 +83,8 @@ TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][ver
     CompositeState s = onset;
     s.decohesion = random.uniform(0.05, 0.9);
     s.elastic_strain += 3e-4 * random.direction();
-    EvolutionMode mode;
-    mode.plane = EvolutionMode::Plane::decohering;
+    CompositeMode mode;
+    mode.plane = CompositeMode::Plane::decohering;
     mode.tension = mode.viscous = true;
     mode.pulled = random.chance(0.8);
     const StrainPath path{2e-4 * random.direction(), 1e-7};
@@ -95,7 +95,7 @@ TEST_CASE("the Jacobian of viscous decohesion against differences", "[local][ver
       if (j == 0) moved.decohesion += change;
       if (j == 1) moved.elastic_strain -= plane.jump_strain(change, 0.0, s.effective_length);
       if (j == 2) moved.elastic_strain -= plane.jump_strain(0.0, change, s.effective_length);
-      const EvolutionRates r = glass->modes().rates(mode, moved, path);
+      const CompositeRates r = glass->modes().rates(mode, moved, path);
       return std::array<double, 4>{r.decohesion, r.opening_n, r.opening_t, r.fracture};
     };
     for (std::size_t j = 0; j < 3; ++j) {

@@ -1,49 +1,52 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/evolution.hpp"
+
+// From one mode to the next: which models act from here on.
 
 namespace vitrum {
 
 template <bool D, Yielding Y, bool C>
-EvolutionMode Composite<D, Y, C>::first_mode(CompositeState& s, const StrainPath& path,
-                                             PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
-  EvolutionMode mode;
+CompositeMode CompositeEvolution<D, Y, C>::first_mode(CompositeState& s, const StrainPath& path,
+                                                      PointReport& report) const {
+  using Plane = CompositeMode::Plane;
+  CompositeMode mode;
   // Traction that the error of earlier increments left on open faces would push them open and shut for ever.
   // What it had stored is numerical error, and stays in the energy residual.
   if constexpr (C)
-    if (is_separated(s)) relax_crack(s);
+    if (is_separated(s)) free_faces(s);
   const double start = trace(s.elastic_strain);
   mode.tension = start > 0.0 || (start == 0.0 && trace(path.strain) > 0.0);
   if constexpr (C)
     if (is_localised(s))
       mode.plane = !is_separated(s) ? Plane::held : s.opening_n > 0.0 ? Plane::open : Plane::closed;
-  choose(mode, std::nullopt, s, path, 0.0, report);
+  select_models(mode, std::nullopt, s, path, 0.0, report);
   return mode;
 }
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, CompositeState& s, const StrainPath& path,
-                               double fraction, PointReport& report) const {
-  using Plane = EvolutionMode::Plane;
+void CompositeEvolution<D, Y, C>::transition(CompositeMode& mode, CompositeGuard root, CompositeState& s,
+                                             const StrainPath& path, double fraction,
+                                             PointReport& report) const {
+  using Plane = CompositeMode::Plane;
   switch (root) {
-    case Root::side:
+    case CompositeGuard::mean_strain_sign:
       mode.tension = !mode.tension;
       break;
-    case Root::damage:
+    case CompositeGuard::damage:
       mode.damaging = true;
       break;
-    case Root::exhausted:
+    case CompositeGuard::exhausted:
       s.crack_density = crack_density_limit;
       mode.damaging = false;
       break;
-    case Root::branch:
+    case CompositeGuard::strength_branch:
       s.plastic_strain = mode.branch_end;
       if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction);
       break;
-    case Root::localisation:
+    case CompositeGuard::localisation:
       localise(mode, s, fraction, report);
       break;
-    case Root::snap_back:
+    case CompositeGuard::snap_back:
       if (mode.separated())
         fall_at_constant_strain(mode, s, fraction, report);
       else if (Y == Yielding::von_mises && mode.flowing && !snaps_back_alone(mode, s, path))
@@ -51,7 +54,7 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, CompositeState& s
       else
         release_plane(mode, s, fraction, report);
       break;
-    case Root::pull:
+    case CompositeGuard::normal_traction_sign:
       // The traction equals the strength: where what is left by shear does not, it is the strength that has
       // vanished.
       if (shear_carries_strength(mode, s))
@@ -59,46 +62,48 @@ void Composite<D, Y, C>::leave(EvolutionMode& mode, Root root, CompositeState& s
       else
         separate_plane(mode, s, fraction, report);
       break;
-    case Root::separation:
+    case CompositeGuard::separation:
       separate_plane(mode, s, fraction, report);
       break;
-    case Root::closure:
+    case CompositeGuard::closure:
       s.opening_n = 0.0;
       mode.plane = Plane::closed;
       report.record(EventKind::closure, fraction);
       break;
-    case Root::opening:
+    case CompositeGuard::opening:
       mode.plane = Plane::open;
       break;
-    case Root::yield:
-    case Root::unload:
-    case Root::decohesion:
-    case Root::stall:
+    case CompositeGuard::yield:
+    case CompositeGuard::unload:
+    case CompositeGuard::decohesion:
+    case CompositeGuard::opening_stops:
       break;
   }
-  choose(mode, root, s, path, fraction, report);
-  if (root != Root::side) {
+  select_models(mode, root, s, path, fraction, report);
+  if (root != CompositeGuard::mean_strain_sign) {
     mode.sliding = false;
   } else if (const double rate = trace(rates(mode, s, path).elastic_strain);
              mode.tension ? rate < 0.0 : rate > 0.0) {
     mode.tension = !mode.tension;
     mode.sliding = true;
-    choose(mode, root, s, path, fraction, report);
+    select_models(mode, root, s, path, fraction, report);
   }
 }
 
 /// Settles which laws act from here on, after the jumps that the state asks for.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, CompositeState& s,
-                                const StrainPath& path, double fraction, PointReport& report) const {
-  if constexpr (D) choose_damage(mode, s, path, fraction, report);
-  meet_surfaces(mode, s, fraction, report);
+void CompositeEvolution<D, Y, C>::select_models(CompositeMode& mode, std::optional<CompositeGuard> root,
+                                                CompositeState& s, const StrainPath& path, double fraction,
+                                                PointReport& report) const {
+  if constexpr (D) select_damage(mode, s, path, fraction, report);
+  fall_to_admissible_stress(mode, s, fraction, report);
   // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
-  bool unloads = root == Root::unload, stalls = root == Root::stall, reached = root == Root::yield;
+  bool unloads = root == CompositeGuard::unload, stalls = root == CompositeGuard::opening_stops,
+       reached = root == CompositeGuard::yield;
   bool yields = reached || s.plastic_strain == 0.0;  // is what flows from here on an event?
   for (int jumps = 0;; ++jumps) {
-    using Plane = EvolutionMode::Plane;
+    using Plane = CompositeMode::Plane;
     if ((mode.plane == Plane::held || mode.decohering()) && strength_is_spent(s, path)) {
       separate_plane(mode, s, fraction, report);
       unloads = stalls = reached = false;
@@ -106,12 +111,13 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, C
     const bool may_flow = !unloads && on_surface(mode, s, reached),
                may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
-    const bool runs_away = choose_flow(mode, s, path, may_flow, may_open);
+    const bool runs_away = select_flow_and_opening(mode, s, path, may_flow, may_open);
     if (yields && mode.flowing) report.record(EventKind::yield, fraction), yields = false;
-    if (reached && !mode.flowing) step_inside(mode, s);
+    if (reached && !mode.flowing) step_inside_surface(mode, s);
     if (jumps == most_jumps) {
       // What still falls does so when the next increment begins.
-      mode.flowing = mode.flowing && !runs_away && !(Y == Yielding::von_mises && falls_through(mode, s));
+      mode.flowing =
+          mode.flowing && !runs_away && !(Y == Yielding::von_mises && softens_past_equilibrium(mode, s));
       return;
     }
     if constexpr (C) {
@@ -120,7 +126,7 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, C
         continue;
       }
     }
-    if (!jump(mode, s, path, fraction, runs_away, report)) return;
+    if (!perform_jump(mode, s, path, fraction, runs_away, report)) return;
     unloads = stalls = reached = false;
   }
 }
@@ -128,15 +134,15 @@ void Composite<D, Y, C>::choose(EvolutionMode& mode, std::optional<Root> root, C
 /// Whether what strength the plane has is the error of the integration, or of rounding (it localised next to
 /// free of traction).
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::strength_is_spent(const CompositeState& s, const StrainPath& path) const {
-  return s.decohesion >= 1.0 - std::max(1e-12, 10.0 * path.tolerance) ||
-         s.cohesive_strength <= 1e-12 * elastic_.shear;
+bool CompositeEvolution<D, Y, C>::strength_is_spent(const CompositeState& s, const StrainPath& path) const {
+  return s.decohesion >= 1.0 - std::max(tolerance::rounding, 10.0 * path.tolerance) ||
+         s.cohesive_strength <= tolerance::rounding * elastic_.shear;
 }
 
 /// Performs the jump that the state asks for, if any.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::jump(EvolutionMode& mode, CompositeState& s, const StrainPath& path, double fraction,
-                              bool runs_away, PointReport& report) const {
+bool CompositeEvolution<D, Y, C>::perform_jump(CompositeMode& mode, CompositeState& s, const StrainPath& path,
+                                               double fraction, bool runs_away, PointReport& report) const {
   if constexpr (C) {
     if (runs_away) {
       fall_with_plane(mode, s, fraction, report);
@@ -148,7 +154,7 @@ bool Composite<D, Y, C>::jump(EvolutionMode& mode, CompositeState& s, const Stra
     }
   }
   if constexpr (Y == Yielding::von_mises) {
-    if (mode.flowing && falls_through(mode, s)) {
+    if (mode.flowing && softens_past_equilibrium(mode, s)) {
       fall_at_constant_strain(mode, s, fraction, report);
       return true;
     }
@@ -158,10 +164,11 @@ bool Composite<D, Y, C>::jump(EvolutionMode& mode, CompositeState& s, const Stra
 
 /// Rate and coefficient of eq. 7 on this side, and whether the crack density grows.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, CompositeState& s, const StrainPath& path,
-                                       double fraction, PointReport& report) const {
+void CompositeEvolution<D, Y, C>::select_damage(CompositeMode& mode, CompositeState& s,
+                                                const StrainPath& path, double fraction,
+                                                PointReport& report) const {
   const double change = trace(path.strain);
-  const bool can = mode.plane == EvolutionMode::Plane::intact && mode.tension;
+  const bool can = mode.plane == CompositeMode::Plane::intact && mode.tension;
   if (!can) {
     mode.damaging = false;
     return;
@@ -169,7 +176,7 @@ void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, CompositeState& s, c
   if (change > 0.0 && path.duration > 0.0) s.max_rate = std::max(s.max_rate, change / (3.0 * path.duration));
   mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
   const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
-  const bool reached = mode.damaging || target >= s.crack_density * (1.0 - 1e-12);
+  const bool reached = mode.damaging || target >= s.crack_density * (1.0 - tolerance::rounding);
   const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
   if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction);
   mode.damaging = grows;
@@ -177,31 +184,32 @@ void Composite<D, Y, C>::choose_damage(EvolutionMode& mode, CompositeState& s, c
 
 /// Whether the stress is not inside the yield surface, rounding aside.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::is_near_surface(const EvolutionMode& mode, const CompositeState& s) const {
+bool CompositeEvolution<D, Y, C>::is_near_surface(const CompositeMode& mode, const CompositeState& s) const {
   if constexpr (has_yield) {
     if (!surface_acts(mode.tension)) return false;
     const Moduli m = secant(mode.tension, s.crack_density);
-    return yield_function(s, m) >= -1e-9 * m.shear * norm(deviator(s.elastic_strain));
+    return yield_function(s, m) >= -tolerance::on_surface * m.shear * norm(deviator(s.elastic_strain));
   } else {
     return false;
   }
 }
 
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::on_surface(const EvolutionMode& mode, const CompositeState& s, bool reached) const {
+bool CompositeEvolution<D, Y, C>::on_surface(const CompositeMode& mode, const CompositeState& s,
+                                             bool reached) const {
   return surface_acts(mode.tension) && (reached || mode.flowing || is_near_surface(mode, s));
 }
 
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::at_strength(const EvolutionMode& mode, const CompositeState& s) const {
+bool CompositeEvolution<D, Y, C>::at_strength(const CompositeMode& mode, const CompositeState& s) const {
   if constexpr (C) {
-    using Plane = EvolutionMode::Plane;
+    using Plane = CompositeMode::Plane;
     if (mode.plane != Plane::held && mode.plane != Plane::decohering) return false;
     const Moduli m = secant(mode.tension, s.crack_density);
     const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
     const double N = decohesion_.effective_traction(t.normal, t.tangential);
-    return N > 0.0 &&
-           N >= decohesion_.strength(s.decohesion, s.cohesive_strength) - 1e-9 * s.cohesive_strength;
+    return N > 0.0 && N >= decohesion_.strength(s.decohesion, s.cohesive_strength) -
+                               tolerance::on_surface * s.cohesive_strength;
   } else {
     return false;
   }
@@ -209,7 +217,7 @@ bool Composite<D, Y, C>::at_strength(const EvolutionMode& mode, const CompositeS
 
 /// Hardening, softening or residual branch of the strength.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const CompositeState& s) const {
+void CompositeEvolution<D, Y, C>::set_branch(CompositeMode& mode, const CompositeState& s) const {
   if constexpr (Y == Yielding::von_mises) {
     mode.hardening_modulus = von_mises_.modulus(s.plastic_strain);
     mode.branch_end = s.plastic_strain < von_mises_.peak_strain() ? von_mises_.peak_strain()
@@ -223,9 +231,10 @@ void Composite<D, Y, C>::set_branch(EvolutionMode& mode, const CompositeState& s
 /// on alone, and both together only backwards along the path: each drives the other, faster than the path
 /// does.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const CompositeState& s, const StrainPath& path,
-                                     bool may_flow, bool may_open) const {
-  using Plane = EvolutionMode::Plane;
+bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, const CompositeState& s,
+                                                          const StrainPath& path, bool may_flow,
+                                                          bool may_open) const {
+  using Plane = CompositeMode::Plane;
   if constexpr (C) {
     mode.viscous = decohesion_.viscosity() > 0.0;
     if (may_open) {
@@ -242,19 +251,19 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const CompositeState& 
       // The elastic material behind the plane drives it beyond what it can bear: it snaps back whether or not
       // the material flows.
       mode.flowing = false;
-      const EvolutionRates alone = rates(mode, s, path);
+      const CompositeRates alone = rates(mode, s, path);
       opens_alone = alone.decohesion > 0.0;
       if (opens_alone && !alone.advances()) return false;
     }
   }
   mode.flowing = may_flow;
   if constexpr (has_yield || C) {
-    if (mode.flowing && Y == Yielding::von_mises && falls_through(mode, s)) {
+    if (mode.flowing && Y == Yielding::von_mises && softens_past_equilibrium(mode, s)) {
       if (mode.decohering()) mode.plane = Plane::held;  // the fall comes first
       return false;
     }
     if (mode.flowing && mode.decohering()) {
-      const EvolutionRates together = rates(mode, s, path);
+      const CompositeRates together = rates(mode, s, path);
       const bool opens = together.decohesion > 0.0, flows = together.plastic_strain > 0.0;
       // Otherwise one goes on and relieves the other.
       if (together.advances() && opens && flows) return false;
@@ -265,14 +274,14 @@ bool Composite<D, Y, C>::choose_flow(EvolutionMode& mode, const CompositeState& 
       }
       // Where either would relieve the other the plane opens: after the localisation the discrete law acts.
       const bool opening_relieves = opens_alone && !flows;
-      EvolutionMode flow_alone = mode;
+      CompositeMode flow_alone = mode;
       flow_alone.plane = Plane::held;
       if (!opening_relieves && !opens && rates(flow_alone, s, path).plastic_strain > 0.0)
         mode.plane = Plane::held;
       else
         mode.flowing = false;
     }
-    const EvolutionRates r = rates(mode, s, path);
+    const CompositeRates r = rates(mode, s, path);
     if (mode.decohering() && !(r.decohesion > 0.0)) mode.plane = Plane::held;
     if (mode.flowing && !(r.plastic_strain > 0.0)) mode.flowing = false;
   }

@@ -1,53 +1,18 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/closed_form.hpp"
 
-// The composite as a law: what it stores, its closed-form response, and which increments stay elastic.
+// Which increments stay elastic.
 
 namespace vitrum {
-
-template <bool D, Yielding Y, bool C>
-Composite<D, Y, C>::Composite(const MaterialParameters& parameters, double cell)
-    : parameters_(parameters), elastic_(elastic_moduli(parameters.elastic)), cell_(cell) {
-  if constexpr (D) damage_ = DamageLaw(*parameters.damage, parameters.elastic);
-  if constexpr (Y == Yielding::von_mises) von_mises_ = VonMisesLaw(*parameters.von_mises);
-  if constexpr (Y == Yielding::drucker_prager) drucker_prager_ = DruckerPragerLaw(*parameters.drucker_prager);
-  if constexpr (C) decohesion_ = DecohesionLaw(*parameters.decohesion);
-}
-
-template <bool D, Yielding Y, bool C>
-std::vector<Variable> Composite<D, Y, C>::variables() const {
-  std::vector<Variable> list;
-  [[maybe_unused]] const auto add = [&list](const std::vector<Variable>& model) {
-    list.insert(list.end(), model.begin(), model.end());
-  };
-  if constexpr (D) add(damage_variables());
-  if constexpr (has_yield) add(plasticity_variables());
-  if constexpr (C) add(decohesion_variables());
-  return list;
-}
-
-template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::advance(CompositeState& s, const SymmetricTensor& strain,
-                                 [[maybe_unused]] double duration,
-                                 [[maybe_unused]] PointReport& report) const {
-  if constexpr (!dissipates) {
-    s.elastic_strain += strain;
-  } else {
-    double done = 0.0;
-    if (!C || !is_localised(s)) done = advance_intact(s, strain, duration, report);
-    if constexpr (C)
-      if (is_localised(s) && done < 1.0)
-        advance_localised(s, (1.0 - done) * strain, (1.0 - done) * duration, done, report);
-  }
-}
 
 /// Marks those of the particles [begin, end), at most elastic_run of them, whose increments meet an event or
 /// change an internal variable (1, else 0), and tells whether there are any: most increments do not, and need
 /// nothing but Hooke's law. Written to be vectorised, which the portable build can do with numbers, not with
 /// truth values.
 template <bool D, Yielding Y, bool C>
-bool Composite<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end,
-                                        double duration, InelasticMarks& marks) const {
+bool CompositeClosedForm<D, Y, C>::mark_inelastic(const ParticleColumns& p, std::size_t begin,
+                                                  std::size_t end, double duration,
+                                                  InelasticMarks& marks) const {
   [[maybe_unused]] const auto variable = [&](std::size_t column) {
     return p.start_variables[column] + begin;
   };

@@ -1,12 +1,13 @@
 #pragma once
-#include "materials/composite/composite.hpp"
+#include "materials/composite/evolution.hpp"
 
 // The drift of a solver's result off the surfaces that a mode keeps to.
 
 namespace vitrum {
 
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::settle(const EvolutionMode& mode, CompositeState& s, const StrainPath&) const {
+void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeState& s,
+                                          const StrainPath&) const {
   if constexpr (C) {
     if (mode.decohering() && !mode.viscous) {
       const Moduli m = secant(mode.tension, s.crack_density);
@@ -14,9 +15,10 @@ void Composite<D, Y, C>::settle(const EvolutionMode& mode, CompositeState& s, co
       for (int i = 0; i < 2; ++i) {
         const Softening w = softening(mode, s, m);
         const double resistance = w.stiffness + w.slope;
-        if (!(resistance > 1e-3 * w.stiffness)) break;  // next to a snap-back the correction is ill-posed
+        if (!(resistance > tolerance::ill_posed * w.stiffness))
+          break;  // next to a snap-back the correction is ill-posed
         const double step = (w.drive.traction - w.strength) / resistance;
-        if (!(std::abs(step) < 1e-2) || s.decohesion + step >= 1.0) break;
+        if (!(std::abs(step) < tolerance::drift) || s.decohesion + step >= 1.0) break;
         s.decohesion += step;
         s.opening_n += step * u0 * w.drive.normal;
         s.opening_t += step * u0 * w.drive.tangential;
@@ -26,7 +28,7 @@ void Composite<D, Y, C>::settle(const EvolutionMode& mode, CompositeState& s, co
   }
   for (int i = 0; i < 3; ++i) {
     if constexpr (C)
-      if (mode.separated()) relax_crack(s);
+      if (mode.separated()) free_faces(s);
     if constexpr (has_yield) {
       if (mode.flowing) {
         const Moduli m = secant(mode.tension, s.crack_density);
@@ -34,11 +36,12 @@ void Composite<D, Y, C>::settle(const EvolutionMode& mode, CompositeState& s, co
         SymmetricTensor given = direction;
         double gap = 0.0, slip = 0.0;
         if constexpr (C)
-          if (mode.separated()) given = give_way(mode, s, m, direction, gap, slip);
+          if (mode.separated()) given = strain_left_by_faces(mode, s, m, direction, gap, slip);
         const SymmetricTensor gradient = yield_gradient(s, m);
         double stiffness = contract(gradient, given);
         if constexpr (Y == Yielding::von_mises) stiffness += VonMisesLaw::factor * mode.hardening_modulus;
-        if (!(stiffness > 1e-3 * contract(gradient, direction))) return;  // next to a snap-back, as above
+        if (!(stiffness > tolerance::ill_posed * contract(gradient, direction)))
+          return;  // next to a snap-back, as above
         const double step = yield_function(s, m) / stiffness;
         if (!(std::abs(step) < norm(deviator(s.elastic_strain)))) return;  // no drift: the strength has gone
         s.elastic_strain -= step * given;
@@ -54,7 +57,7 @@ void Composite<D, Y, C>::settle(const EvolutionMode& mode, CompositeState& s, co
 /// tell that it does. It begins anew a rounding inside, so that no event function starts above zero, where
 /// CVODE would never see it cross; what that takes from the stored energy is a rounding, too.
 template <bool D, Yielding Y, bool C>
-void Composite<D, Y, C>::step_inside(const EvolutionMode& mode, CompositeState& s) const {
+void CompositeEvolution<D, Y, C>::step_inside_surface(const CompositeMode& mode, CompositeState& s) const {
   if constexpr (has_yield) {
     const Moduli m = secant(mode.tension, s.crack_density);
     const SymmetricTensor d = deviator(s.elastic_strain);
@@ -62,7 +65,8 @@ void Composite<D, Y, C>::step_inside(const EvolutionMode& mode, CompositeState& 
     if (!(slope > 0.0)) return;
     const double excess = std::max(0.0, yield_function(s, m)) / slope;
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-    s.elastic_strain -= (excess + std::max(1e-12, rounding * norm(s.elastic_strain) / norm(d))) * d;
+    s.elastic_strain -=
+        (excess + std::max(tolerance::rounding, rounding * norm(s.elastic_strain) / norm(d))) * d;
   }
 }
 
