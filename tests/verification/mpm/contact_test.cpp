@@ -117,7 +117,7 @@ TEST_CASE("A block that is pressed onto another one slides as Coulomb says", "[c
   }
 }
 
-TEST_CASE("A sphere that meets a half space: Hertz's force and duration", "[contact]") {
+TEST_CASE("A sphere that meets a large block: Hertz's force and duration", "[contact]") {
   MpmScene scene;
   scene.geometry = "axisymmetric", scene.shape = "gimp", scene.cell = 0.5e-3, scene.scheme = "musl";
   scene.pace = "";
@@ -129,8 +129,10 @@ TEST_CASE("A sphere that meets a half space: Hertz's force and duration", "[cont
                  "[material.steel]\ndensity = 7800.0\nyoung = 195e9\npoisson = 0.25\n";
   MpmRun run(scene);
   const double pi = std::numbers::pi, R = 0.005, v = 50.0;
+  // Both are free: the reduced mass.
   const double modulus = 1.0 / ((1.0 - 0.0625) / 72e9 + (1.0 - 0.0625) / 195e9),
-               mass = 4.0 / 3.0 * pi * R * R * R * 7800.0, k = 4.0 / 3.0 * modulus * std::sqrt(R);
+               ball = 4.0 / 3.0 * pi * R * R * R * 7800.0, block = pi * 0.02 * 0.02 * 0.02 * 2500.0,
+               mass = ball * block / (ball + block), k = 4.0 / 3.0 * modulus * std::sqrt(R);
   const double depth = std::pow(1.25 * mass * v * v / k, 0.4);
   double impulse = 0.0, peak = 0.0, first = 0.0, last = 0.0;
   run.watch = [&](double step) {
