@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "materials/bounds.hpp"
+#include "schema/bounds.hpp"
 
 namespace vitrum {
 

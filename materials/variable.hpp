@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "materials/bounds.hpp"
+#include "schema/bounds.hpp"
 
 namespace vitrum {
 

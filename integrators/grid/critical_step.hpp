@@ -1,11 +1,10 @@
 #pragma once
 #include <string>
 
+#include "integrators/grid/step_scheme.hpp"
 #include "mpm/system.hpp"
 
 namespace vitrum {
-
-enum class StepScheme { usf, usl, musl };
 
 /// The largest step for which an explicit scheme is stable, and what sets it.
 struct CriticalStep {

@@ -1,9 +1,8 @@
 #pragma once
+#include "integrators/local/cvode_family.hpp"
 #include "integrators/local/path_follower.hpp"
 
 namespace vitrum {
-
-enum class CvodeFamily { bdf, adams };
 
 /// CVODE for every mode that evolves: variable order and step under error tolerances, roots located by its
 /// root finder. One bundle of CVODE memories a thread, used again for every particle.

@@ -100,7 +100,7 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
         "#   while increments are elastic; about {} if none were (measured now with constitutive.method = "
         "\"{}\")\n",
         duration_text(facts["seconds_most"].get<double>()),
-        scene::name_of(scene::local_method_names, scene.constitutive.method));
+        scene::name_of(scene::local_methods, scene.constitutive.method));
   text += fmt::format(
       "# critical step {}{:.6g} s (body '{}')\n",
       scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",

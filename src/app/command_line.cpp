@@ -141,9 +141,16 @@ int obey(int argc, char** argv) {
   compare_command.add_flag("--json", compared.json, "print JSON");
 
   bool result_page = false;
+  std::string schema;
   CLI::App& reference_command =
       *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
-  reference_command.add_flag("--result", result_page, "the result reference instead");
+  CLI::Option* of_result =
+      reference_command.add_flag("--result", result_page, "the result reference instead");
+  reference_command
+      .add_flag("--schema{scene}", schema,
+                "a JSON schema of scenes instead, for editors; --schema=point: of point files")
+      ->check(CLI::IsMember({"scene", "point"}))
+      ->excludes(of_result);
 
   for (CLI::App* command : program.get_subcommands({})) command->footer(examples_of(command->get_name()));
   program.footer(examples_of(""));
@@ -163,6 +170,8 @@ int obey(int argc, char** argv) {
     show(output::version_text());
   else if (info_command)
     show(output::describe_result(result, json));
+  else if (!schema.empty())
+    show(schema == "point" ? point_schema() : scene_schema());
   else if (reference_command)
     show(result_page ? output::result_reference() : scene_reference());
   else {

@@ -63,7 +63,7 @@ std::string step_key(const IntegratorDefinition& i) {
 CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
   switch (integrator.method) {
     case GridMethod::explicit_steps:
-      return critical_step(system, stability_limit(step_scheme(integrator.scheme)));
+      return critical_step(system, stability_limit(integrator.scheme));
     case GridMethod::arkode_explicit:
       return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0));
     case GridMethod::arkode_implicit:

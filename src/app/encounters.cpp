@@ -9,7 +9,6 @@
 #include <set>
 
 #include "scene/choices.hpp"
-#include "scene/scene_keys.hpp"
 #include "scene/shape_gap.hpp"
 #include "scene/shapes.hpp"
 #include "scene/start_nodes.hpp"

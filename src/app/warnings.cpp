@@ -35,7 +35,7 @@ void warn_of_step(const Scene& scene, const CriticalStep& critical, Warnings& li
 }
 
 void warn_of_scheme(const Scene& scene, Warnings& list) {
-  if (scene.integrator.method == GridMethod::explicit_steps && scene.integrator.scheme == ExplicitScheme::usl)
+  if (scene.integrator.method == GridMethod::explicit_steps && scene.integrator.scheme == StepScheme::usl)
     list.push_back(fmt::format(
         "{}: \"usl\" has no stable step where the edge of a body leaves a node nearly empty; \"usf\" and "
         "\"musl\" have",
@@ -45,7 +45,7 @@ void warn_of_scheme(const Scene& scene, Warnings& list) {
 void warn_of_long_phases(const Scene& scene, const System& system, const CriticalStep& critical,
                          Warnings& list) {
   if (scene.integrator.method != GridMethod::arkode_implicit ||
-      scene.shape_functions == ShapeFunctions::bspline2)
+      scene.shape_functions == mpm::ShapeKind::bspline2)
     return;
   const double phase =
       std::min(longest_phase(system, remap_settings(scene.integrator)), scene.end - scene.start);

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 
-namespace vitrum::mpm {
+#include "mpm/shape_kind.hpp"
 
-enum class ShapeKind { linear, gimp, bspline2 };
+namespace vitrum::mpm {
 
 /// Largest integer not above x, |x| < 2^31. (std::floor is a library call on processors without SSE 4.1, and
 /// 64-bit integers are not converted four at a time.)

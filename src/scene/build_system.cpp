@@ -21,18 +21,6 @@
 namespace vitrum {
 namespace {
 
-mpm::ShapeKind shape_kind(ShapeFunctions s) {
-  switch (s) {
-    case ShapeFunctions::linear:
-      return mpm::ShapeKind::linear;
-    case ShapeFunctions::gimp:
-      return mpm::ShapeKind::gimp;
-    case ShapeFunctions::bspline2:
-      return mpm::ShapeKind::bspline2;
-  }
-  return mpm::ShapeKind::linear;
-}
-
 void allocate(Particles& p, const Material& material) {
   const auto sized = [&](auto& columns) {
     for (auto& column : columns) column.assign(p.size, 0.0);
@@ -79,7 +67,8 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
   const PointState state = body.material->start(stress);
   // Masses and velocities are those of the places before the shift: positions alone differ within an
   // ensemble.
-  const std::vector<Vector2> shifts = displacements(definition.perturbation, scene.cell, p.size);
+  const std::vector<Vector2> shifts =
+      displacements(definition.perturbation.value_or(Perturbation{}), scene.cell, p.size);
   const double density = body.material->density();
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
@@ -149,8 +138,8 @@ System build_system(const Scene& scene, int threads) {
   system.time = scene.start;
   for (std::size_t index = 0; index < scene.bodies.size(); ++index)
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
-  system.grid = mpm::Grid(scene.cell, shape_kind(scene.shape_functions), system.axisymmetric,
-                          make_boundaries(scene, system));
+  system.grid =
+      mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
   system.local = make_local_integrator(scene.constitutive);
   system.team = make_team(threads > 0 ? threads : thread_count(scene, system, available_threads()));
   build_contact(scene, system);

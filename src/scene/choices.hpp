@@ -1,38 +1,46 @@
 #pragma once
-#include <array>
-#include <string_view>
-
 #include "scene/scene.hpp"
+#include "schema/field.hpp"
 
 namespace vitrum::scene {
 
-// Names of enumeration values in scene files, in the order of the enumerations.
-inline constexpr std::array<std::string_view, 2> geometry_names{"axisymmetric", "plane-strain"};
+using schema::name_of;
+using schema::Named;
+
+// What scene files call the values of enumerations.
+inline constexpr std::array geometries{Named{"axisymmetric", Geometry::axisymmetric},
+                                       Named{"plane-strain", Geometry::plane_strain}};
+inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::linear},
+                                            Named{"gimp", mpm::ShapeKind::gimp},
+                                            Named{"bspline2", mpm::ShapeKind::bspline2}};
+inline constexpr std::array grid_methods{Named{"explicit", GridMethod::explicit_steps},
+                                         Named{"arkode-explicit", GridMethod::arkode_explicit},
+                                         Named{"arkode-implicit", GridMethod::arkode_implicit}};
+inline constexpr std::array step_schemes{Named{"usf", StepScheme::usf}, Named{"usl", StepScheme::usl},
+                                         Named{"musl", StepScheme::musl}};
+inline constexpr std::array linear_solvers{Named{"klu", LinearSolver::klu},
+                                           Named{"gmres", LinearSolver::gmres}};
+inline constexpr std::array preconditioners{Named{"factor", Preconditioner::factor},
+                                            Named{"diagonal", Preconditioner::diagonal}};
+inline constexpr std::array contact_methods{Named{"single", ContactMethod::single},
+                                            Named{"bodies", ContactMethod::bodies}};
+inline constexpr std::array local_methods{Named{"closed-form", LocalMethod::closed_form},
+                                          Named{"substep", LocalMethod::substep},
+                                          Named{"cvode", LocalMethod::cvode}};
+inline constexpr std::array cvode_families{Named{"bdf", CvodeFamily::bdf},
+                                           Named{"adams", CvodeFamily::adams}};
+/// Whether the flow is associated.
+inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
+/// Whether the search for a decohesion plane goes beyond the plane of the scene.
+inline constexpr std::array planes{Named{"in-plane", false}, Named{"all", true}};
+
 /// Keys of the shapes, in the order of Shape.
 inline constexpr std::array<std::string_view, 4> shape_names{"box", "disk", "ring", "polygon"};
-inline constexpr std::array<std::string_view, 3> shape_function_names{"linear", "gimp", "bspline2"};
-inline constexpr std::array<std::string_view, 3> grid_method_names{"explicit", "arkode-explicit",
-                                                                   "arkode-implicit"};
-inline constexpr std::array<std::string_view, 3> scheme_names{"usf", "usl", "musl"};
-inline constexpr std::array<std::string_view, 2> contact_method_names{"single", "bodies"};
-inline constexpr std::array<std::string_view, 3> local_method_names{"closed-form", "substep", "cvode"};
-inline constexpr std::array<std::string_view, 2> linear_solver_names{"klu", "gmres"};
-inline constexpr std::array<std::string_view, 2> preconditioner_names{"factor", "diagonal"};
-inline constexpr std::array<std::string_view, 2> local_solver_names{"bdf", "adams"};
-inline constexpr std::array<std::string_view, 2> flow_names{"isochoric", "associated"};
-inline constexpr std::array<std::string_view, 2> plane_names{"in-plane", "all"};
-inline constexpr std::array<std::string_view, 1> rate_names{"running-maximum"};
 
 /// Components of a vector as `fix` names them.
 constexpr std::array<std::string_view, 2> component_names(Geometry geometry) {
   return geometry == Geometry::axisymmetric ? std::array<std::string_view, 2>{"r", "z"}
                                             : std::array<std::string_view, 2>{"x", "y"};
-}
-
-/// The name of an enumeration value (or of a bool: its second name when true).
-template <class Value, std::size_t N>
-constexpr std::string_view name_of(const std::array<std::string_view, N>& names, Value value) {
-  return names[static_cast<std::size_t>(value)];
 }
 
 }  // namespace vitrum::scene

@@ -68,7 +68,7 @@ std::string Diagnostics::place(std::string_view origin, const toml::source_posit
 Diagnostics::Message Diagnostics::message(const std::string& origin, const toml::source_position& where,
                                           std::string_view key, std::string_view fact) const {
   const std::size_t number = override_at(origin);
-  return {number, number != 0 ? toml::source_position{} : where,
+  return {number, number != 0 ? toml::source_position{} : where, std::string(key),
           fmt::format("{}: {}", place(origin, where), sentence(key, fact))};
 }
 
@@ -78,12 +78,16 @@ void Diagnostics::add(const std::string& origin, const toml::source_position& wh
 }
 
 void Diagnostics::add_override(std::size_t number, std::string_view key, std::string_view fact) {
-  faults_.push_back({number, {}, fmt::format("--set {}: {}", number, sentence(key, fact))});
+  faults_.push_back({number, {}, std::string(key), fmt::format("--set {}: {}", number, sentence(key, fact))});
 }
 
 void Diagnostics::warn(const std::string& origin, const toml::source_position& where, std::string_view key,
                        std::string_view fact) {
   warnings_.push_back(message(origin, where, key, fact));
+}
+
+bool Diagnostics::sound(std::string_view path) const {
+  return std::ranges::none_of(faults_, [&](const Message& m) { return is_at_or_below(m.key, path); });
 }
 
 void Diagnostics::throw_if_any() const {

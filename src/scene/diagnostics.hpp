@@ -40,6 +40,9 @@ class Diagnostics {
 
   /// Whether there are no faults so far.
   bool empty() const { return faults_.empty(); }
+  /// Whether no fault of the key at `path`, nor of one below it, has been added.
+  bool sound(std::string_view path) const;
+
   /// Throws InputError with all faults in the order of the file, then of the command line; returns when there
   /// are none.
   void throw_if_any() const;
@@ -50,7 +53,7 @@ class Diagnostics {
   struct Message {
     std::size_t override_number;
     toml::source_position where;
-    std::string text;
+    std::string key, text;
   };
 
   Message message(const std::string& origin, const toml::source_position& where, std::string_view key,

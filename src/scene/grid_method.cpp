@@ -17,23 +17,11 @@ AdaptiveSettings adaptive_settings(const IntegratorDefinition& i, const System& 
 
 sundials::LinearSolverKind linear_solver(const IntegratorDefinition& i) {
   using Kind = sundials::LinearSolverKind;
-  if (i.linear_solver == "klu") return Kind::klu;
-  return i.preconditioner == "diagonal" ? Kind::gmres_with_diagonal : Kind::gmres_with_factor;
+  if (i.linear_solver == LinearSolver::klu) return Kind::klu;
+  return i.preconditioner == Preconditioner::factor ? Kind::gmres_with_factor : Kind::gmres_with_diagonal;
 }
 
 }  // namespace
-
-StepScheme step_scheme(ExplicitScheme scheme) {
-  switch (scheme) {
-    case ExplicitScheme::usf:
-      return StepScheme::usf;
-    case ExplicitScheme::usl:
-      return StepScheme::usl;
-    case ExplicitScheme::musl:
-      return StepScheme::musl;
-  }
-  return StepScheme::usf;
-}
 
 sundials::TableKind table_kind(GridMethod method) {
   return method == GridMethod::arkode_implicit ? sundials::TableKind::diagonally_implicit
@@ -42,7 +30,8 @@ sundials::TableKind table_kind(GridMethod method) {
 
 sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator) {
   const sundials::TableKind kind = table_kind(integrator.method);
-  const std::string name = integrator.table.value_or(sundials::table_of_order(kind, integrator.order));
+  const std::string name =
+      integrator.table ? *integrator.table : sundials::table_of_order(kind, integrator.order.value());
   const auto table = sundials::find_table(kind, name);
   if (!table) throw InputError("integrator.table: SUNDIALS has no table " + name);  // validated before
   return *table;
@@ -56,8 +45,7 @@ std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition&
                                                      const System& initial) {
   switch (integrator.method) {
     case GridMethod::explicit_steps:
-      return std::make_unique<ExplicitIntegrator>(step_scheme(integrator.scheme), integrator.step,
-                                                  integrator.courant);
+      return std::make_unique<ExplicitIntegrator>(integrator.scheme, integrator.step, integrator.courant);
     case GridMethod::arkode_explicit:
       return std::make_unique<ArkodeExplicit>(adaptive_settings(integrator, initial));
     case GridMethod::arkode_implicit:

@@ -14,9 +14,6 @@ namespace vitrum {
 std::unique_ptr<GridIntegrator> make_grid_integrator(const IntegratorDefinition& integrator,
                                                      const System& initial);
 
-/// The integrator's name for a scheme of the scene.
-StepScheme step_scheme(ExplicitScheme scheme);
-
 /// When a Lagrangian phase of the integrator ends.
 RemapSettings remap_settings(const IntegratorDefinition& integrator);
 

@@ -14,8 +14,7 @@ std::unique_ptr<LocalIntegrator> make_local_integrator(const ConstitutiveDefinit
     case LocalMethod::substep:
       return std::make_unique<Substep>(tolerance);
     case LocalMethod::cvode:
-      return std::make_unique<Cvode>(tolerance,
-                                     constitutive.solver == "adams" ? CvodeFamily::adams : CvodeFamily::bdf);
+      return std::make_unique<Cvode>(tolerance, constitutive.solver);
   }
   return nullptr;
 }

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "scene/key_depth.hpp"
-#include "scene/key_info.hpp"
-#include "scene/scene_keys.hpp"
+#include "scene/scene_tables.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/toml_reader.hpp"
+#include "scene/table_view.hpp"
 #include "scene/toml_text.hpp"
+#include "scene/write_table.hpp"
 
 namespace vitrum::scene {
 namespace {
@@ -134,7 +134,7 @@ std::string index_of(const std::string& name, const toml::array& list, const std
     throw Refusal{key,
                   with_suggestion(fmt::format("found no item of this name, expected one of {} or an index "
                                               "from 0 to {}",
-                                              quoted_list(names), list.size() - 1),
+                                              schema::quoted_list(names), list.size() - 1),
                                   name, names)};
   if (indices.size() > 1)
     throw Refusal{key, fmt::format("found {} items of this name, expected an index: one of {}",
@@ -177,15 +177,26 @@ struct Place {
   std::size_t depth;
 };
 
-/// The list that the key of a body or boundary stands for when it is absent: `body.0.velocity`, say.
+/// The table that may stand where the first `count` keys lead; null: none.
+const schema::Table* table_at(const std::vector<std::string>& keys, std::size_t count) {
+  const schema::Table* table = &scene_table(Geometry::axisymmetric);
+  for (std::size_t i = 0; i < count && table != nullptr; ++i) {
+    const schema::Key* key = table->find(keys[i]);
+    if (key != nullptr && (key->shape.kind == schema::Kind::tables || key->table_name))
+      ++i;  // an item's name
+    table = key != nullptr ? key->table : nullptr;
+  }
+  return table;
+}
+
+/// The list that a key stands for when it is absent: `body.0.velocity`, say.
 std::optional<toml::array> absent_list(const std::vector<std::string>& keys, std::size_t depth) {
-  if (depth != 2) return std::nullopt;
-  const KeyTable table = keys[0] == "body"       ? keys::body()
-                         : keys[0] == "boundary" ? keys::boundary(Geometry::axisymmetric)
-                                                 : KeyTable{};
-  const auto found = std::ranges::find(table, keys[depth], &KeyInfo::name);
-  if (found == table.end() || !found->fallback.starts_with('[')) return std::nullopt;
-  return *toml::parse(fmt::format("list = {}", found->fallback), std::string_view{})["list"].as_array();
+  const schema::Table* table = table_at(keys, depth);
+  const schema::Key* key = table != nullptr ? table->find(keys[depth]) : nullptr;
+  if (key == nullptr || !key->fallback) return std::nullopt;
+  const toml::table document = toml::parse("list = " + value_text(*key->fallback), std::string_view{});
+  const toml::array* list = document["list"].as_array();
+  return list != nullptr ? std::optional(*list) : std::nullopt;
 }
 
 /// Puts `value` at the item of `list` that the keys from `depth` on name.
@@ -270,17 +281,17 @@ void remove(toml::table& document, const std::vector<std::string>& keys, std::si
   diagnostics.note_override(joined(keys, keys.size()), number);
 }
 
-/// `step` and `courant`, `order` and `table` exclude each other, so setting one of them drops the other.
-void drop_alternative(toml::table& document, const std::string& path, Diagnostics& diagnostics) {
-  std::string_view dropped;
-  if (path == "integrator.step") dropped = "courant";
-  if (path == "integrator.courant") dropped = "step";
-  if (path == "integrator.order") dropped = "table";
-  if (path == "integrator.table") dropped = "order";
-  toml::table* integrator = document["integrator"].as_table();
-  if (dropped.empty() || integrator == nullptr) return;
-  integrator->erase(dropped);
-  diagnostics.note_override(join_path("integrator", dropped), 0);
+/// Keys that exclude each other: setting one drops the others.
+void drop_alternatives(toml::table& document, const std::vector<std::string>& keys,
+                       Diagnostics& diagnostics) {
+  const std::size_t last = keys.size() - 1;
+  const schema::Table* schema = table_at(keys, last);
+  if (schema == nullptr) return;
+  toml::table* table = find_place(document, keys).parent->as_table();
+  for (const std::string& other : schema->alternatives_of(keys[last])) {
+    table->erase(other);
+    diagnostics.note_override(join_path(joined(keys, last), other), 0);
+  }
 }
 
 }  // namespace
@@ -289,8 +300,8 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
                     Diagnostics& diagnostics) {
   const std::optional<Assignment> assignment = split(text);
   if (!assignment) {
-    diagnostics.add_override(number, "",
-                             fmt::format("found {}, expected KEY=VALUE with a dotted KEY", toml_quoted(text)));
+    diagnostics.add_override(
+        number, "", fmt::format("found {}, expected KEY=VALUE with a dotted KEY", toml_quoted(text)));
     return;
   }
   if (assignment->parts.size() > most_key_parts) {
@@ -305,7 +316,7 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
     const std::string path = joined(keys, keys.size());
     toml::table parsed = parse_value(*assignment, path);
     diagnostics.note_override(assign(document, keys, *parsed.get("value")), number);
-    drop_alternative(document, path, diagnostics);
+    drop_alternatives(document, keys, diagnostics);
   } catch (const Refusal& refusal) {
     diagnostics.add_override(number, refusal.key, refusal.fact);
   }

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "scene/checks.hpp"
+#include "scene/choices.hpp"
 #include "scene/input_text.hpp"
 #include "scene/key_depth.hpp"
 #include "scene/overrides.hpp"
-#include "scene/scene_keys.hpp"
-#include "scene/sections.hpp"
+#include "scene/read_table.hpp"
+#include "scene/scene_tables.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum {
@@ -30,6 +34,13 @@ toml::table parse_document(std::string_view text, std::string_view name,
   return document;
 }
 
+/// The geometry decides what `fix` of a boundary may name; a wrong one is reported when it is read.
+Geometry geometry_of(const toml::table& document) {
+  const auto name = document["space"]["geometry"].value<std::string_view>();
+  const auto found = std::ranges::find(scene::geometries, name.value_or(""), &scene::Named<Geometry>::name);
+  return found != scene::geometries.end() ? found->value : Geometry::axisymmetric;
+}
+
 /// Enters where the keys of a table stand, and those of the tables and lists of tables below.
 void note_places(const toml::node& node, const std::string& path, const scene::Diagnostics& diagnostics,
                  std::map<std::string, std::string>& places) {
@@ -47,21 +58,16 @@ void note_places(const toml::node& node, const std::string& path, const scene::D
 Scene parse_scene(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
   const toml::table table = parse_document(text, name, overrides, diagnostics);
-  const scene::TableReader document(table, "", scene::keys::scene(), diagnostics);
+  const scene::TableView document(table, "", scene::scene_table(geometry_of(table)), diagnostics);
   Scene scene;
   scene.verbatim = text;
   scene.overrides = overrides;
-  document.read("title", scene.title);
-  read_space(document, scene);
-  read_time(document, scene);
-  read_integrator(document, scene);
-  read_constitutive(document, scene.constitutive);
-  read_output(document, scene);
-  read_gravity(document, scene);
-  scene.materials = read_materials(document);
-  read_bodies(document, scene);
-  read_boundaries(document, scene);
-  read_contact(document, scene);
+  scene::read_table(document, &scene);
+  scene::check_methods(document, scene);
+  scene::check_materials(document, scene.materials);
+  scene::check_bodies(document, scene);
+  scene::check_boundaries(document, scene);
+  scene::check_contact(document, scene);
   diagnostics.throw_if_any();
   scene.warnings = diagnostics.warnings();
   note_places(table, "", diagnostics, scene.places);
@@ -72,16 +78,17 @@ PointScene parse_point(std::string_view text, std::string_view name,
                        const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
   const toml::table table = parse_document(text, name, overrides, diagnostics);
-  const scene::TableReader document(table, "", scene::keys::point(), diagnostics);
+  const scene::TableView document(table, "", scene::point_table(), diagnostics);
   PointScene point;
-  std::vector<MaterialParameters> materials = read_materials(document);
-  if (materials.size() > 1)
-    document.report("material", fmt::format("found {} materials, expected one", materials.size()));
-  if (!materials.empty()) point.material = std::move(materials.front());
-  read_constitutive(document, point.constitutive);
-  read_state(document, point);
-  read_path(document, point);
+  scene::read_table(document, &point);
+  if (const std::size_t found = document.tables("material").size(); found > 1)
+    document.report("material", fmt::format("found {} materials, expected one", found));
+  else if (found == 1)
+    scene::check_materials(document, {point.material});
+  scene::check_state(document, point);
+  scene::check_path(document, point);
   diagnostics.throw_if_any();
+  point.state = scene::start_of(point);
   point.warnings = diagnostics.warnings();
   return point;
 }

@@ -2,21 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <set>
 #include <string_view>
 
-#include "scene/scene_keys.hpp"
+#include "scene/scene_tables.hpp"
+#include "scene/write_table.hpp"
+#include "schema/json_schema.hpp"
 
 namespace vitrum {
 namespace {
 
 using namespace scene;
-
-struct Section {
-  std::string_view heading;
-  std::string_view text;
-  KeyTable keys;
-};
 
 constexpr std::string_view introduction =
     R"(# Scene reference
@@ -57,77 +53,19 @@ tolerance acted. Warnings go to standard error, and stand in `summary.json` and 
 `check` prints for each body the mass of its shape and of its particles, for bodies within 4 cells and each body's nearest the gap between the shapes, the distance of
 their nearest particles and the number of common nodes, and for each boundary the nodes with mass in its box.
 
+Editors complete and check scenes by a JSON schema, which the program prints: `vitrum reference --schema > scene.schema.json` (`--schema=point`: of point
+files). With the line `#:schema ./scene.schema.json` at its top a scene is known to [taplo](https://taplo.tamasfe.dev) and to editors that use it (VS Code:
+Even Better TOML; Helix, Neovim and Emacs by its language server); for a folder of scenes `.taplo.toml` says so once:
+
+    [[rule]]
+    include = ["**/*.toml"]
+    [rule.schema]
+    path = "./scene.schema.json"
+
+A schema knows keys, types, bounds and choices; how values go together is what `check` knows.
+
 This page is printed by the program from the tables that its reader uses; do not edit it.
 )";
-
-std::array<Section, 18> scene_sections() {
-  return {{
-      {"The file", "Tables of the document.", keys::scene()},
-      {"[space]", "Geometry and grid.", keys::space()},
-      {"[time]", "The time span.", keys::time()},
-      {"[integrator]",
-       "The grid momentum equations. Keys of a method that is not chosen are validated and ignored.",
-       keys::integrator()},
-      {"[constitutive]",
-       "The local equations. Keys of a method that is not chosen are validated and ignored.",
-       keys::constitutive()},
-      {"[output]", "What is written, and when.", keys::output()},
-      {"[[body]]", "One table for each body, with exactly one shape.", keys::body()},
-      {"Shape `box` of a body", "`min` is less than `max` in both components.", keys::box()},
-      {"Shape `disk` of a body",
-       "In axisymmetric geometry a disk centred on the axis is a sphere, any other a torus about it. "
-       "Particles at the "
-       "rim of a disk, a ring or a polygon have the mass of their part of it.",
-       keys::disk()},
-      {"Shape `ring` of a body", "`inner` is less than `outer`.", keys::ring()},
-      {"`perturbation` of a body",
-       "Positions alone are displaced; masses and velocities stay those of the places before.",
-       keys::perturbation()},
-      {"[[boundary]]", "Grid nodes that are held or driven; the axis is handled by the geometry.",
-       keys::boundary(Geometry::axisymmetric)},
-      {"`box` of a boundary", "", keys::boundary_box()},
-      {"[contact]",
-       "What happens where bodies meet. Without this table the method is `single`, and `check` and `run` "
-       "warn of "
-       "bodies that can meet.",
-       keys::contact()},
-      {"[[contact.pair]]", "", keys::contact_pair()},
-      {"[gravity]", "", keys::gravity()},
-      {"[material.NAME]",
-       "Isotropic elasticity; each table in it switches a model on. A model that is absent is "
-       "neither stored nor run.",
-       keys::material()},
-      {"[material.NAME.damage]",
-       "With damage, Poisson's ratio must be below 0.3926 (the root of nu^3 + nu^2 + 2 nu = 1): above, eqs. "
-       "5, 6 and 8 "
-       "make the shear modulus rise with the crack density.",
-       keys::damage()},
-  }};
-}
-
-std::array<Section, 4> model_sections() {
-  return {{
-      {"`rate` of damage as a table", "", keys::fixed_rate()},
-      {"[material.NAME.drucker_prager]", "Excludes `von_mises`.", keys::drucker_prager()},
-      {"[material.NAME.von_mises]",
-       "`peak` is at least `yield`; equal: no hardening branch. `softening` = 0: perfectly plastic from the "
-       "peak on. A "
-       "peak above the yield strength needs `hardening` > 0.",
-       keys::von_mises()},
-      {"[material.NAME.decohesion]", "", keys::decohesion()},
-  }};
-}
-
-std::array<Section, 3> point_sections() {
-  return {{
-      {"Point file", "`vitrum point` drives one material point along a strain path.", keys::point()},
-      {"[state]",
-       "State at the start of the path, e.g. of a particle whose increment failed (a run writes "
-       "`failed_point.toml`).",
-       keys::state()},
-      {"[path]", "", keys::path()},
-  }};
-}
 
 /// '|' would end a table cell and '<' begin an HTML tag.
 std::string cell_text(std::string_view text) {
@@ -139,20 +77,20 @@ std::string cell_text(std::string_view text) {
   return result;
 }
 
-std::string key_row(const KeyInfo& key) {
-  const std::string fallback = key.required           ? "required"
-                               : key.fallback.empty() ? ""
-                                                      : '`' + key.fallback + '`';
-  return fmt::format("| `{}` | {} | {} | {} |\n", key.name, cell_text(key.expected), fallback,
-                     cell_text(key.meaning));
+std::string key_row(const schema::Key& key) {
+  const std::string fallback = key.required   ? "required"
+                               : key.fallback ? '`' + value_text(*key.fallback) + '`'
+                                              : "";
+  return fmt::format("| `{}` | {} | {} | {} |\n", key.name, cell_text(expected(key)), fallback,
+                     cell_text(key.text));
 }
 
-std::string section_text(const Section& section) {
-  const bool is_table = section.heading.front() == '[';
-  std::string text = fmt::format("\n## {0}{1}{0}\n\n", is_table ? "`" : "", section.heading);
-  if (!section.text.empty()) text += fmt::format("{}\n\n", section.text);
+std::string section_text(const schema::Table& table) {
+  const bool is_table = table.heading.front() == '[';
+  std::string text = fmt::format("\n## {0}{1}{0}\n\n", is_table ? "`" : "", table.heading);
+  if (!table.text.empty()) text += fmt::format("{}\n\n", table.text);
   text += "| key | value | default | meaning |\n|---|---|---|---|\n";
-  for (const KeyInfo& key : section.keys) text += key_row(key);
+  for (const schema::Key& key : table.keys) text += key_row(key);
   return text;
 }
 
@@ -160,14 +98,20 @@ std::string section_text(const Section& section) {
 
 std::string scene_reference() {
   std::string page(introduction);
-  for (const Section& section : scene_sections()) page += section_text(section);
-  for (const Section& section : model_sections()) page += section_text(section);
-  for (const RegisteredLaw& law : registered_laws()) {
-    const std::string heading = fmt::format("[material.NAME.{}]", law.table), text = law.text + '.';
-    page += section_text({heading, text, keys::law(law)});
-  }
-  for (const Section& section : point_sections()) page += section_text(section);
+  std::set<const schema::Table*> printed;
+  for (const schema::Table* file : {&scene_table(Geometry::axisymmetric), &point_table()})
+    schema::visit_tables(*file, [&](const schema::Table& table) {
+      if (printed.insert(&table).second) page += section_text(table);
+    });
   return page;
+}
+
+std::string scene_schema() {
+  return schema::json_schema(scene_table(Geometry::axisymmetric), "a scene of vitrum");
+}
+
+std::string point_schema() {
+  return schema::json_schema(point_table(), "a point file of vitrum");
 }
 
 }  // namespace vitrum

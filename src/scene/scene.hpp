@@ -7,7 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "integrators/grid/step_scheme.hpp"
+#include "integrators/local/cvode_family.hpp"
 #include "materials/law.hpp"
+#include "mpm/shape_kind.hpp"
 
 namespace vitrum {
 
@@ -15,10 +18,10 @@ namespace vitrum {
 using Vector2 = std::array<double, 2>;
 
 enum class Geometry { axisymmetric, plane_strain };
-enum class ShapeFunctions { linear, gimp, bspline2 };
 enum class GridMethod { explicit_steps, arkode_explicit, arkode_implicit };
-enum class ExplicitScheme { usf, usl, musl };
 enum class ContactMethod { single, bodies };
+enum class LinearSolver { klu, gmres };
+enum class Preconditioner { factor, diagonal };
 enum class LocalMethod { closed_form, substep, cvode };
 
 struct Box {
@@ -51,7 +54,7 @@ struct BodyDefinition {
   Vector2 velocity{0.0, 0.0};                  ///< m/s at the origin
   std::array<Vector2, 2> velocity_gradient{};  ///< rows: dv_r/d(r,z), dv_z/d(r,z), 1/s
   std::array<double, 4> stress{};              ///< (rr, zz, tt, rz), Pa
-  Perturbation perturbation;
+  std::optional<Perturbation> perturbation;
 };
 
 struct BoundaryDefinition {
@@ -65,19 +68,19 @@ struct BoundaryDefinition {
 
 struct IntegratorDefinition {
   GridMethod method = GridMethod::explicit_steps;
-  ExplicitScheme scheme = ExplicitScheme::usf;
-  std::optional<double> step;  ///< s; exactly one of step and courant is set for explicit_steps
+  StepScheme scheme = StepScheme::usf;
+  std::optional<double> step;  ///< s; exactly one of step and courant is set
   std::optional<double> courant;
   double max_growth = 1.5;  ///< may be infinite
   // arkode-*
-  int order = 3;
+  std::optional<int> order;  ///< exactly one of order and table is set
   std::optional<std::string> table;
   double rtol = 1.0e-3;
   std::optional<double> velocity_scale, strain_scale;  ///< m/s, 1; absent: derived from the scene
   std::optional<double> fixed_step, max_step, min_step, initial_step;
   // arkode-implicit
-  std::string linear_solver = "klu";
-  std::string preconditioner = "factor";
+  LinearSolver linear_solver = LinearSolver::klu;
+  Preconditioner preconditioner = Preconditioner::factor;
   std::optional<double> remap;  ///< s; none: phases end by travel and strain alone
   double remap_travel = 0.25;   ///< cells
   double remap_strain = 0.02;
@@ -87,7 +90,7 @@ struct ConstitutiveDefinition {
   LocalMethod method = LocalMethod::closed_form;
   double rtol = 1.0e-6;
   double atol = 1.0e-9;
-  std::string solver = "bdf";
+  CvodeFamily solver = CvodeFamily::bdf;
 };
 
 struct OutputDefinition {
@@ -117,7 +120,7 @@ struct Scene {
   std::string title;
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
-  ShapeFunctions shape_functions = ShapeFunctions::linear;
+  mpm::ShapeKind shape_functions = mpm::ShapeKind::linear;
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;
   ConstitutiveDefinition constitutive;
@@ -139,16 +142,24 @@ struct Scene {
   const MaterialParameters& material_of(std::size_t body) const;
 };
 
+/// [state] of a point file. Which variables there are is a matter of the material.
+struct StateDefinition {
+  SymmetricTensor elastic_strain{};
+  std::map<std::string, double, std::less<>>
+      variables;  ///< those that are given, by the name of their column
+};
+
 /// A validated point file (`vitrum point`).
 struct PointScene {
   MaterialParameters material;
   ConstitutiveDefinition constitutive;
-  PointState state;                     ///< at the start; virgin unless the file gives [state]
-  std::vector<double> time;             ///< s, increasing
-  std::vector<SymmetricTensor> strain;  ///< one per time
-  double size = 0.0;                    ///< cell size, m
-  int samples = 200;                    ///< rows per segment
-  std::vector<std::string> warnings;    ///< as a scene's
+  std::optional<StateDefinition> given;  ///< by [state]; `state` follows from it
+  PointState state;                      ///< at the start; virgin unless the file gives [state]
+  std::vector<double> time;              ///< s, increasing
+  std::vector<SymmetricTensor> strain;   ///< one per time
+  double size = 0.0;                     ///< cell size, m
+  int samples = 200;                     ///< rows per segment
+  std::vector<std::string> warnings;     ///< as a scene's
 };
 
 }  // namespace vitrum

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "scene/toml_reader.hpp"
+#include "scene/table_view.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum {

@@ -38,12 +38,12 @@ double blocks(const ShapeMeasures& m, double cell) {
 double factor(const ShapeMeasures& m, const Scene& scene) {
   const double cells = m.area / (scene.cell * scene.cell), front = std::max(m.width / scene.cell, 1.0);
   return of_factor * cells * std::pow(front, fill_exponent) *
-         (scene.shape_functions == ShapeFunctions::linear ? 1.0 : wider_stencil);
+         (scene.shape_functions == mpm::ShapeKind::linear ? 1.0 : wider_stencil);
 }
 
 bool factorises(const IntegratorDefinition& i) {
   return i.method == GridMethod::arkode_implicit &&
-         (i.linear_solver == "klu" || i.preconditioner != "diagonal");
+         (i.linear_solver == LinearSolver::klu || i.preconditioner == Preconditioner::factor);
 }
 
 }  // namespace

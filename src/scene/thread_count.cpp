@@ -7,13 +7,13 @@ namespace vitrum {
 namespace {
 
 /// A particle's share of a step, relative to linear shape functions (docs/performance-measurements.md).
-double cost_of(ShapeFunctions shape) {
+double cost_of(mpm::ShapeKind shape) {
   switch (shape) {
-    case ShapeFunctions::linear:
+    case mpm::ShapeKind::linear:
       return 1.0;
-    case ShapeFunctions::gimp:
+    case mpm::ShapeKind::gimp:
       return 2.6;
-    case ShapeFunctions::bspline2:
+    case mpm::ShapeKind::bspline2:
       return 1.7;
   }
   return 1.0;

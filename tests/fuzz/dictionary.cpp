@@ -1,4 +1,4 @@
-// Prints the dictionary of the fuzz targets from the key tables: key names, headers, choices, and numbers at
+// Prints the dictionary of the fuzz targets from the tables of keys: names, headers, choices, and numbers at
 // the edges of what a double, an integer and a scene can hold.
 #include <fmt/format.h>
 
@@ -7,7 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "scene/scene_keys.hpp"
+#include "scene/scene_tables.hpp"
+#include "scene/write_table.hpp"
 
 namespace {
 
@@ -62,46 +63,24 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-void collect(KeyTable table, std::set<std::string>& words) {
-  for (const KeyInfo& key : table) {
+void collect(const vitrum::schema::Table& table, std::set<std::string>& words) {
+  for (const vitrum::schema::Key& key : table.keys) {
     words.insert(key.name);
-    for (const std::string& choice : key.choices) words.insert('"' + choice + '"');
-    if (key.expected.starts_with("a table [")) words.insert(fmt::format("[{}]\n", key.name));
-    if (!key.fallback.empty()) words.insert(fmt::format("{} = {}\n", key.name, key.fallback));
+    for (const auto* choices : {&key.choices, &key.choices_elsewhere})
+      for (const std::string& choice : *choices) words.insert('"' + choice + '"');
+    if (key.table != nullptr && key.table->heading == '[' + key.name + ']')
+      words.insert(fmt::format("[{}]\n", key.name));
+    if (key.fallback) words.insert(fmt::format("{} = {}\n", key.name, value_text(*key.fallback)));
   }
 }
 
 }  // namespace
 
 int main() {
-  namespace keys = vitrum::scene::keys;
   std::set<std::string> words(syntax.begin(), syntax.end());
   words.insert(numbers.begin(), numbers.end());
-  for (const KeyTable& table : {keys::scene(),
-                                keys::point(),
-                                keys::state(),
-                                keys::space(),
-                                keys::time(),
-                                keys::integrator(),
-                                keys::constitutive(),
-                                keys::output(),
-                                keys::gravity(),
-                                keys::path(),
-                                keys::body(),
-                                keys::box(),
-                                keys::disk(),
-                                keys::ring(),
-                                keys::boundary(vitrum::Geometry::axisymmetric),
-                                keys::boundary(vitrum::Geometry::plane_strain),
-                                keys::boundary_box(),
-                                keys::material(),
-                                keys::damage(),
-                                keys::fixed_rate(),
-                                keys::drucker_prager(),
-                                keys::von_mises(),
-                                keys::decohesion()})
-    collect(table, words);
-  for (const vitrum::RegisteredLaw& law : vitrum::registered_laws()) collect(keys::law(law), words);
-  fmt::print("# Printed by fuzz_dictionary from the key tables; do not edit.\n");
+  for (const vitrum::schema::Table* file : {&scene_table(vitrum::Geometry::axisymmetric), &point_table()})
+    visit_tables(*file, [&](const vitrum::schema::Table& table) { collect(table, words); });
+  fmt::print("# Printed by fuzz_dictionary from the tables of keys; do not edit.\n");
   for (const std::string& word : words) fmt::print("\"{}\"\n", escaped(word));
 }

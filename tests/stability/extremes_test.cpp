@@ -16,7 +16,7 @@ TEST_CASE("A step three times the critical one is stopped by its growth, with a 
     MpmScene scene;
     scene.scheme = scheme;
     scene.tables = body("ball", disk({0.0, 0.0}, 6.0), "velocity_gradient = [[1e-3, 0.0], [0.0, -1e-3]]");
-    const StepScheme kind = step_scheme(parse_scene(scene.text(), "test").integrator.scheme);
+    const StepScheme kind = parse_scene(scene.text(), "test").integrator.scheme;
     scene.pace = fixed_step(3.0 * stability_limit(kind));
     MpmRun run(scene);
     const app::Watchdog watchdog(1.5, run.integrator);

@@ -32,7 +32,7 @@ TEST_CASE("Overrides (--set): replaces scalars, lists, list items and quoted key
   CHECK(scene.bodies[1].velocity == Vector2{0.0, -800.0});
   CHECK(std::get<Box>(scene.bodies[0].shape).max == Vector2{0.4, 0.005});
   CHECK(scene.materials[0].damage->m == 7.0);
-  CHECK(scene.integrator.scheme == ExplicitScheme::musl);
+  CHECK(scene.integrator.scheme == StepScheme::musl);
   CHECK(scene.overrides.size() == 5);
   CHECK(scene.verbatim == scene_text);
 }

@@ -1,13 +1,13 @@
 #include "catch.hpp"
-#include "scene/scene_keys.hpp"
-#include "scene/toml_reader.hpp"
+#include "scene/scene_tables.hpp"
+#include "scene/table_view.hpp"
 
 namespace vitrum::scene {
 
 TEST_CASE("warnings stand in the order of the file, then of the command line, and stop nothing", "[scene]") {
   const toml::table document = toml::parse("start = 0.0\nend = 1.0\n");
   Diagnostics diagnostics("a.toml");
-  const TableReader time(document, "time", keys::time(), diagnostics);
+  const TableView time(document, "time", time_table(), diagnostics);
   diagnostics.note_override("time.start", 2);
   time.warn("start", "an odd start");
   time.warn("end", "an odd end");

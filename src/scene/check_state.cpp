@@ -8,19 +8,28 @@
 #include <span>
 
 #include "materials/registry.hpp"
-#include "scene/scene_keys.hpp"
-#include "scene/sections.hpp"
+#include "scene/checks.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::scene {
 namespace {
 
 /// Values of columns by name; 0 where the file has none.
-using Values = std::map<std::string_view, double>;
+class Values {
+ public:
+  explicit Values(const StateDefinition& given) : given_(&given) {}
+  double at(std::string_view name) const {
+    const auto found = given_->variables.find(name);
+    return found != given_->variables.end() ? found->second : 0.0;
+  }
+
+ private:
+  const StateDefinition* given_;
+};
 using Names = std::initializer_list<std::string_view>;
 
 /// Reports the first of `names` that is not zero.
-bool require_zero(const TableReader& table, const Values& values, Names names, std::string_view because) {
+bool require_zero(const TableView& table, const Values& values, Names names, std::string_view because) {
   for (const std::string_view name : names)
     if (values.at(name) != 0.0) {
       table.fail(name, fmt::format("0: {}", because));
@@ -30,7 +39,7 @@ bool require_zero(const TableReader& table, const Values& values, Names names, s
 }
 
 /// What a model that the material does not name would keep.
-bool check_models(const TableReader& table, const MaterialParameters& m, const Values& values) {
+bool check_models(const TableView& table, const MaterialParameters& m, const Values& values) {
   return (m.damage ||
           require_zero(table, values, {"crack_density", "max_rate"}, "the material has no damage")) &&
          (m.von_mises || m.drucker_prager ||
@@ -42,13 +51,13 @@ bool check_models(const TableReader& table, const MaterialParameters& m, const V
 }
 
 /// What a plane keeps that is not there: a point is localised where it has an effective length.
-bool check_intact(const TableReader& table, const Values& values) {
+bool check_intact(const TableView& table, const Values& values) {
   return require_zero(table, values,
                       {"decohesion", "opening_n", "opening_t", "normal_r", "normal_z", "cohesive_strength"},
                       "the point is not localised (it would have an effective_length > 0)");
 }
 
-void check_plane(const TableReader& table, const DecohesionParameters& parameters, const Values& values) {
+void check_plane(const TableView& table, const DecohesionParameters& parameters, const Values& values) {
   constexpr double rounding = 1e-6;  // of a plane that has turned with its particle
   const double r = values.at("normal_r"), z = values.at("normal_z"), decohesion = values.at("decohesion");
   const double length = std::hypot(r, z);
@@ -78,7 +87,7 @@ void check_plane(const TableReader& table, const DecohesionParameters& parameter
 }
 
 /// What the composite's models ask of their variables.
-void check_composite(const TableReader& table, const MaterialParameters& material, const Values& values) {
+void check_composite(const TableView& table, const MaterialParameters& material, const Values& values) {
   if (!check_models(table, material, values)) return;
   if (values.at("effective_length") > 0.0)
     check_plane(table, *material.decohesion, values);
@@ -87,7 +96,7 @@ void check_composite(const TableReader& table, const MaterialParameters& materia
 }
 
 /// What the law does not store.
-void check_law(const TableReader& table, const Material& material, const Values& values) {
+void check_law(const TableView& table, const Material& material, const Values& values) {
   for (const Component& column : all_columns())
     if (!material.column(column.name) && column.name != dissipated_variable().name)
       require_zero(table, values, {column.name}, "the material has no such variable");
@@ -95,31 +104,26 @@ void check_law(const TableReader& table, const Material& material, const Values&
 
 }  // namespace
 
-void read_state(const TableReader& document, PointScene& point) {
-  const auto table = document.table("state", keys::state());
-  std::array<double, 4> e{};
-  Values values;
-  if (table) {
-    table->read("elastic_strain", std::span<double>(e));
-    for (const Component& column : all_columns()) table->read(column.name, values[column.name]);
-  }
-  // Which variables there are, and where they start, is a matter of the material.
-  if (!document.diagnostics().empty()) {
-    if (table && !point.material.law) check_composite(*table, point.material, values);
-    return;
-  }
-  const std::shared_ptr<const Material> material = make_material(point.material, 1.0);
-  point.state = material->start({});
-  if (!table) return;
-  if (point.material.law)
-    check_law(*table, *material, values);
-  else
+void check_state(const TableView& document, const PointScene& point) {
+  const auto table = document.table("state");
+  if (!table || !point.given) return;
+  const Values values(*point.given);
+  if (!point.material.law)
     check_composite(*table, point.material, values);
-  point.state.elastic_strain = {e[0], e[1], e[2], e[3]};
-  for (std::size_t k = 0; k < material->columns().size(); ++k)
-    if (table->has(material->columns()[k].name))
-      value_of(*material, point.state, k) = values[material->columns()[k].name];
-  point.state.dissipated = values[dissipated_variable().name];
+  else if (document.diagnostics().empty())
+    check_law(*table, *make_material(point.material, 1.0), values);
+}
+
+PointState start_of(const PointScene& point) {
+  const std::shared_ptr<const Material> material = make_material(point.material, 1.0);
+  PointState state = material->start({});
+  if (!point.given) return state;
+  state.elastic_strain = point.given->elastic_strain;
+  for (const auto& [name, value] : point.given->variables) {
+    if (const auto column = material->column(name)) value_of(*material, state, *column) = value;
+    if (name == dissipated_variable().name) state.dissipated = value;
+  }
+  return state;
 }
 
 }  // namespace vitrum::scene

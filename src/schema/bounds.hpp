@@ -19,6 +19,7 @@ inline constexpr Bounds positive{0.0, infinite, true, true};
 inline constexpr Bounds not_negative{0.0, infinite, false, true};
 inline constexpr Bounds fraction{0.0, 1.0};
 inline constexpr Bounds finite{-infinite, infinite, true, true};
+inline constexpr Bounds infinite_too{-infinite, infinite};
 }  // namespace intervals
 
 }  // namespace vitrum

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "scene/checks.hpp"
+#include "scene/choices.hpp"
+#include "scene/polygon_check.hpp"
+#include "scene/shapes.hpp"
+#include "scene/suggestion.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+void check_box(const TableView& table, const Box& box) {
+  if (box.min[0] < box.max[0] && box.min[1] < box.max[1]) return;
+  table.report("max",
+               fmt::format("found [{}, {}], expected both components greater than those of 'min' ([{}, {}])",
+                           number_text(box.max[0]), number_text(box.max[1]), number_text(box.min[0]),
+                           number_text(box.min[1])));
+}
+
+void check_ring(const TableView& table, const Ring& ring) {
+  if (!(ring.inner < ring.outer))
+    table.fail("outer", fmt::format("a radius greater than 'inner' ({})", number_text(ring.inner)));
+}
+
+void check_polygon(const TableView& body, const Polygon& polygon) {
+  constexpr std::size_t most_vertices = 10'000;  // each edge is compared with each other
+  if (polygon.vertices.size() > most_vertices)
+    return body.fail("polygon", fmt::format("at most {} vertices", most_vertices));
+  const std::string fault = polygon_fault(polygon.vertices);
+  if (fault.empty()) return;
+  body.report(
+      "polygon",
+      fmt::format("found {}, expected three or more vertices of a closed line that does not meet itself "
+                  "(the last vertex joins the first)",
+                  fault));
+}
+
+void check_shape(const TableView& body, const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape)) check_box(*body.table("box"), *box);
+  if (const auto* ring = std::get_if<Ring>(&shape)) check_ring(*body.table("ring"), *ring);
+  if (const auto* polygon = std::get_if<Polygon>(&shape)) check_polygon(body, *polygon);
+}
+
+double least_radius(const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape)) return box->min[0];
+  if (const auto* disk = std::get_if<Disk>(&shape)) return disk->centre[0];
+  if (const auto* ring = std::get_if<Ring>(&shape)) return ring->centre[0];
+  const auto& vertices = std::get<Polygon>(shape).vertices;
+  return std::ranges::min(vertices, {}, [](const Vector2& v) { return v[0]; })[0];
+}
+
+/// Round bodies may reach over the axis: a sphere is a disk centred on it, of which the half r > 0 is meant.
+void check_axis(const TableView& body, const Shape& shape) {
+  if (least_radius(shape) >= 0.0) return;
+  const std::string_view name = shape_names[shape.index()];
+  const bool round = name == "disk" || name == "ring";
+  body.report(name, fmt::format("found {} r = {}, expected r >= 0 in axisymmetric geometry",
+                                round ? "a centre at" : "a corner at", number_text(least_radius(shape))));
+}
+
+void check_material(const TableView& body, const BodyDefinition& definition, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const MaterialParameters& material : scene.materials) names.push_back(material.name);
+  if (std::ranges::find(names, definition.material) != names.end()) return;
+  const std::string known = names.empty() ? "the name of a [material.NAME]"
+                                          : "a material of this file: " + schema::quoted_list(names);
+  body.fail("material", with_suggestion(known, definition.material, names));
+}
+
+/// Where bodies overlap, mass would count twice and stress be without a state of rest.
+void check_overlap(const TableView& table, const BodyDefinition& body, const BodyDefinition& other,
+                   double cell) {
+  if (!(cell > 0.0)) return;  // reported
+  const double spacing = cell / std::sqrt(body.particles_per_cell);
+  const auto common = common_point(body.shape, other.shape, 0.5 * spacing, 1e-6 * spacing);
+  if (!common) return;
+  table.report(
+      shape_names[body.shape.index()],
+      fmt::format("found it overlapping body '{}' at ({:.6g}, {:.6g}) m, expected bodies that at most touch",
+                  other.name, (*common)[0], (*common)[1]));
+}
+
+/// Whether a body has one shape, and nothing has been reported of it.
+bool has_shape(const TableView& table, const BodyDefinition& body) {
+  const auto given = std::ranges::count_if(shape_names, [&](std::string_view key) { return table.has(key); });
+  const std::string_view key = shape_names[body.shape.index()];
+  return given == 1 && table.has(key) && table.sound(key);
+}
+
+void check_body(const TableView& table, const BodyDefinition& body, const Scene& scene) {
+  if (table.sound("name")) check_name(table, body.name);
+  if (table.sound("material")) check_material(table, body, scene);
+  if (has_shape(table, body)) check_shape(table, body.shape);
+  if (has_shape(table, body) && scene.geometry == Geometry::axisymmetric) check_axis(table, body.shape);
+}
+
+}  // namespace
+
+void check_name(const TableView& table, std::string_view name) {
+  if (name.empty() || has_control_characters(name))
+    table.fail("name", "a name that is not empty, without line breaks or other control characters");
+}
+
+void check_bodies(const TableView& document, const Scene& scene) {
+  const std::vector<TableView> tables = document.tables("body");
+  std::map<std::string, std::string> paths;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const BodyDefinition& body = scene.bodies[i];
+    check_body(tables[i], body, scene);
+    for (std::size_t j = 0; j < i && has_shape(tables[i], body); ++j)
+      if (has_shape(tables[j], scene.bodies[j])) check_overlap(tables[i], body, scene.bodies[j], scene.cell);
+    const auto [first, is_new] = paths.emplace(body.name, tables[i].path());
+    if (!is_new && !body.name.empty())
+      tables[i].fail("name", fmt::format("a name of its own ('{}' has this one)", first->second));
+  }
+}
+
+}  // namespace vitrum::scene

@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <string_view>
+
+#include "scene/scene.hpp"
+#include "scene/table_view.hpp"
+
+/// What rows cannot say: how keys of a document that has been read must go together. Each check reports its
+/// faults to the diagnostics, and looks at nothing that has been reported before.
+namespace vitrum::scene {
+
+void check_methods(const TableView& document, const Scene& scene);
+void check_materials(const TableView& document, const std::vector<MaterialParameters>& materials);
+void check_bodies(const TableView& document, const Scene& scene);
+/// Names boundaries that have no name, too.
+void check_boundaries(const TableView& document, Scene& scene);
+void check_contact(const TableView& document, const Scene& scene);
+void check_state(const TableView& document, const PointScene& point);
+/// The state that a point starts from. Of a file without faults.
+PointState start_of(const PointScene& point);
+void check_path(const TableView& document, const PointScene& point);
+
+/// Reports a name that is empty or not a single line.
+void check_name(const TableView& table, std::string_view name);
+
+}  // namespace vitrum::scene

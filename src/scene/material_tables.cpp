@@ -1,0 +1,170 @@
+#include <map>
+
+#include "materials/registry.hpp"
+#include "scene/choices.hpp"
+#include "scene/scene_tables.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+using schema::Field;
+using schema::Fields;
+using schema::required;
+using schema::Table;
+using schema::table_of;
+
+/// The numbers of a law.
+template <class Parameters>
+Fields<Parameters> parameter_rows() {
+  Fields<Parameters> rows;
+  for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
+    Field<Parameters> row(info.name, info.member, info.unit, info.bounds, info.description,
+                          info.fallback ? schema::Need::optional : required);
+    if (info.fallback) row.fallback = *info.fallback;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// The numbers of a law, then its keys of other kinds.
+template <class Parameters>
+Table model_table(std::string_view name, std::string_view text, const Fields<Parameters>& others) {
+  Fields<Parameters> rows = parameter_rows<Parameters>();
+  rows.insert(rows.end(), others.begin(), others.end());
+  return table_of("[material.NAME." + std::string(name) + ']', text, rows);
+}
+
+const Table& fixed_rate_table() {
+  using P = DamageParameters;
+  static const Table table = [] {
+    Table t = table_of<P>("`rate` of damage as a table", "",
+                          {{"fixed", &P::fixed_rate, "1/s", intervals::positive,
+                            "this rate enters eq. 7 whatever the history", required}});
+    t.in_one_line = true;
+    return t;
+  }();
+  return table;
+}
+
+/// A text, or a table that gives the rate.
+Field<DamageParameters> rate_row() {
+  using P = DamageParameters;
+  static constexpr const char* running = "running-maximum";
+  const auto get = [](const P& damage) -> std::optional<schema::Value> {
+    if (damage.fixed_rate > 0.0) return std::nullopt;
+    return std::string(running);
+  };
+  const auto set = [](P& damage, const schema::Value&) { damage.fixed_rate = 0.0; };
+  auto row = Field<P>::of("rate", {schema::Kind::text}, "strain rate that enters eq. 7",
+                          schema::Need::optional, get, set)
+                 .expecting("\"running-maximum\" or a table {fixed = RATE}");
+  row.choices = {running};
+  row.table = &fixed_rate_table();
+  row.open = [](void* damage, const std::string&) { return damage; };
+  row.look = [](const void* damage, std::size_t n) {
+    return n == 0 && static_cast<const P*>(damage)->fixed_rate > 0.0 ? damage : nullptr;
+  };
+  return row;
+}
+
+const Table& damage_table() {
+  static const Table table = model_table<DamageParameters>(
+      "damage",
+      "With damage, Poisson's ratio must be below 0.3926 (the root of nu^3 + nu^2 + 2 nu = 1): above, eqs. "
+      "5, 6 and 8 make the shear modulus rise with the crack density.",
+      {rate_row()});
+  return table;
+}
+
+const Table& drucker_prager_table() {
+  static const Table table = model_table<DruckerPragerParameters>(
+      "drucker_prager", "Excludes `von_mises`.",
+      {{"flow", &DruckerPragerParameters::associated, flows,
+        "plastic flow without volume change, or normal to the yield surface"}});
+  return table;
+}
+
+const Table& von_mises_table() {
+  static const Table table = model_table<VonMisesParameters>(
+      "von_mises",
+      "`peak` is at least `yield`; equal: no hardening branch. `softening` = 0: perfectly plastic from the "
+      "peak on. A peak above the yield strength needs `hardening` > 0.",
+      {});
+  return table;
+}
+
+const Table& decohesion_table() {
+  static const Table table = model_table<DecohesionParameters>(
+      "decohesion", "",
+      {{"plane", &DecohesionParameters::search_all_planes, planes,
+        "normals searched: in the plane of the scene, or the hoop direction too"}});
+  return table;
+}
+
+/// A number, or a list of one or more, of a registered law: its place in LawParameters.
+Field<LawParameters> law_row(const ParameterRow& parameter, std::size_t place) {
+  using L = LawParameters;
+  const auto get = [place, list = parameter.is_list](const L& law) -> std::optional<schema::Value> {
+    if (place >= law.values.size()) return std::nullopt;
+    return list ? schema::Value(law.values[place]) : schema::Value(law.values[place].front());
+  };
+  const auto set = [place](L& law, const schema::Value& value) {
+    const auto* numbers = std::get_if<schema::Numbers>(&value);
+    law.values[place] = numbers != nullptr ? *numbers : schema::Numbers{std::get<double>(value)};
+  };
+  auto row =
+      Field<L>::of(parameter.name, {parameter.is_list ? schema::Kind::numbers : schema::Kind::number},
+                   parameter.description, parameter.fallback ? schema::Need::optional : required, get, set);
+  row.unit = parameter.unit;
+  row.bounds = parameter.bounds;
+  if (parameter.fallback) row.fallback = *parameter.fallback;
+  return row;
+}
+
+const Table& law_table(const RegisteredLaw& law) {
+  static std::map<std::string, Table> tables;
+  if (const auto found = tables.find(law.table); found != tables.end()) return found->second;
+  Fields<LawParameters> rows;
+  for (const ParameterRow& parameter : law.parameters) rows.push_back(law_row(parameter, rows.size()));
+  return tables[law.table] = table_of("[material.NAME." + law.table + ']', law.text + '.', rows);
+}
+
+Field<MaterialParameters> law_field(const RegisteredLaw& law) {
+  using M = MaterialParameters;
+  Field<M> field(law.table, &M::law, law_table(law), law.text + "; excludes the models above");
+  field.open = [&law](void* material, const std::string&) -> void* {
+    auto& parameters = static_cast<M*>(material)->law;
+    parameters = LawParameters{law.table, std::vector<std::vector<double>>(law.parameters.size(), {0.0})};
+    return &*parameters;
+  };
+  field.look = [&law](const void* material, std::size_t n) -> const void* {
+    const auto& parameters = static_cast<const M*>(material)->law;
+    return n == 0 && parameters && parameters->table == law.table ? &*parameters : nullptr;
+  };
+  return field;
+}
+
+}  // namespace
+
+const Table& material_table() {
+  using M = MaterialParameters;
+  static const Table table = [] {
+    Fields<M> rows = schema::joined({}, &M::elastic, parameter_rows<ElasticParameters>());
+    const Fields<M> models{
+        {"damage", &M::damage, damage_table(), "rate-dependent tensile damage; absent: none"},
+        {"drucker_prager", &M::drucker_prager, drucker_prager_table(),
+         "plasticity under compression; absent: none"},
+        {"von_mises", &M::von_mises, von_mises_table(),
+         "plasticity with hardening and softening; absent: none; excludes `drucker_prager`"},
+        {"decohesion", &M::decohesion, decohesion_table(), "from localisation to separation; absent: none"}};
+    rows.insert(rows.end(), models.begin(), models.end());
+    for (const RegisteredLaw& law : registered_laws()) rows.push_back(law_field(law));
+    return table_of("[material.NAME]",
+                    "Isotropic elasticity; each table in it switches a model on. A model that is absent is "
+                    "neither stored nor run.",
+                    rows);
+  }();
+  return table;
+}
+
+}  // namespace vitrum::scene

@@ -1,0 +1,233 @@
+#include "scene/read_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "scene/suggestion.hpp"
+#include "scene/toml_text.hpp"
+
+namespace vitrum::scene {
+namespace {
+
+using schema::Alternatives;
+using schema::Key;
+using schema::Kind;
+using schema::Numbers;
+using schema::Value;
+
+/// Of keys of which at most one may be given, each but the first of the file is reported.
+void check_at_most_one(const TableView& table, std::vector<std::string> given) {
+  std::ranges::stable_sort(given, {}, [&](const std::string& key) {
+    const toml::source_position at = table.position(key);
+    return std::tuple(at.line, at.column);
+  });
+  for (std::size_t i = 1; i < given.size(); ++i)
+    table.report(given[i], fmt::format("found together with '{}', expected only one of the two",
+                                       join_path(table.path(), given[0])));
+}
+
+void check_alternatives(const TableView& table, const Alternatives& group) {
+  std::vector<std::string> given;
+  std::ranges::copy_if(group.keys, std::back_inserter(given),
+                       [&](const std::string& key) { return table.has(key); });
+  if (group.needed.empty()) return check_at_most_one(table, given);
+  if (given.size() != 1)
+    table.report(fmt::format("found {}, expected exactly one of {}",
+                             given.empty() ? "no " + group.needed : schema::quoted_list(given),
+                             fmt::join(group.keys, ", ")));
+}
+
+void check_keys(const TableView& table) {
+  const std::vector<std::string> names = table.schema().names();
+  for (const auto& [key, node] : table.toml()) {
+    if (std::ranges::find(names, key.str()) != names.end()) continue;
+    const std::string path = join_path(table.path(), key.str());
+    const std::string fact = fmt::format("found an unknown key, expected {}{}",
+                                         names.size() > 1 ? "one of " : "", fmt::join(names, ", "));
+    table.diagnostics().add(path, key.source().begin, path, with_suggestion(fact, key.str(), names));
+  }
+  for (const Key& key : table.schema().keys)
+    if (key.required && !table.has(key.name))
+      table.report(key.name, fmt::format("found nothing, expected {}", expected(key)));
+  for (const Alternatives& group : table.schema().alternatives) check_alternatives(table, group);
+}
+
+/// Reads the value of one key. Whatever returns nothing has reported why.
+class ValueReader {
+ public:
+  ValueReader(const TableView& table, const Key& key)
+      : table_(table), key_(key), path_(join_path(table.path(), key.name)) {}
+
+  std::optional<Value> read(const toml::node& node) const {
+    switch (key_.shape.kind) {
+      case Kind::number:
+        return number(node, path_, expected(key_));
+      case Kind::integer:
+        return integer(node);
+      case Kind::flag:
+        return node.is_boolean() ? std::optional<Value>(node.as_boolean()->get()) : wrong();
+      case Kind::text:
+        return text(node, path_, expected(key_));
+      case Kind::numbers:
+        return has_length(node, key_.shape.length) ? numbers(*node.as_array(), path_) : wrong();
+      case Kind::rows:
+        return has_length(node, key_.shape.length) ? rows(*node.as_array()) : wrong();
+      case Kind::texts:
+        return has_length(node, key_.shape.length) ? texts(*node.as_array()) : wrong();
+      default:
+        return wrong();
+    }
+  }
+
+ private:
+  std::nullopt_t wrong() const {
+    table_.fail(key_.name, expected(key_));
+    return std::nullopt;
+  }
+  std::nullopt_t wrong(const toml::node& node, const std::string& path, std::string_view what) const {
+    table_.fail_node(node, path, what);
+    return std::nullopt;
+  }
+
+  /// Whether a node is a list of so many items; 0: of one or more numbers or rows, or of any texts.
+  bool has_length(const toml::node& node, std::size_t length) const {
+    if (!node.is_array()) return false;
+    const std::size_t found = node.as_array()->size();
+    return length > 0 ? found == length : found > 0 || key_.shape.kind == Kind::texts;
+  }
+
+  std::optional<Value> number(const toml::node& node, const std::string& path, std::string_view what) const {
+    if (!node.is_number()) return wrong(node, path, what);
+    const double found =
+        node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+    return key_.bounds.contain(found) ? std::optional<Value>(found) : wrong(node, path, what);
+  }
+
+  std::optional<Value> integer(const toml::node& node) const {
+    if (!node.is_integer()) return wrong();
+    const std::int64_t found = node.as_integer()->get();
+    using Limits = std::numeric_limits<int>;
+    if (found < Limits::min() || found > Limits::max() || !key_.bounds.contain(static_cast<double>(found)))
+      return wrong();
+    const int value = static_cast<int>(found);
+    const bool admitted =
+        key_.admitted.empty() || std::ranges::find(key_.admitted, value) != key_.admitted.end();
+    return admitted ? std::optional<Value>(value) : wrong();
+  }
+
+  std::optional<Value> text(const toml::node& node, const std::string& path, const std::string& what) const {
+    if (!node.is_string()) return wrong(node, path, what);
+    const std::string& found = node.as_string()->get();
+    const std::vector<std::string>& choices = key_.choices;
+    if (choices.empty() || std::ranges::find(choices, found) != choices.end()) return found;
+    return wrong(node, path, with_suggestion(what, found, choices));
+  }
+
+  /// The items of a list, each read by `item(node, path)`.
+  template <class Item, class Read>
+  std::optional<Value> items(const toml::array& list, const std::string& path, Read&& item) const {
+    std::vector<Item> values;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (std::optional<Value> value = item(list[i], join_path(path, i)))
+        values.push_back(std::get<Item>(*std::move(value)));
+    return values.size() == list.size() ? std::optional<Value>(std::move(values)) : std::nullopt;
+  }
+
+  std::optional<Value> numbers(const toml::array& list, const std::string& path) const {
+    return items<double>(list, path, [&](const toml::node& node, const std::string& at) {
+      return number(node, at, expected_component(key_));
+    });
+  }
+
+  std::optional<Value> rows(const toml::array& list) const {
+    const std::size_t width = key_.shape.width;
+    return items<Numbers>(list, path_, [&](const toml::node& node, const std::string& at) {
+      return has_length(node, width) ? numbers(*node.as_array(), at)
+                                     : wrong(node, at, fmt::format("a list of {} numbers", width));
+    });
+  }
+
+  std::optional<Value> texts(const toml::array& list) const {
+    const std::string what =
+        key_.choices.empty() ? "a string" : "one of " + schema::quoted_list(key_.choices);
+    std::vector<std::string> earlier;
+    return items<std::string>(list, path_, [&](const toml::node& node, const std::string& at) {
+      std::optional<Value> found = text(node, at, what);
+      if (!found) return found;
+      const std::string& value = std::get<std::string>(*found);
+      if (std::ranges::find(earlier, value) != earlier.end())
+        return std::optional<Value>(wrong(node, at, "every entry once"));
+      earlier.push_back(value);
+      return found;
+    });
+  }
+
+  const TableView& table_;
+  const Key& key_;
+  std::string path_;
+};
+
+void read_tables(const TableView& table, const Key& key, const toml::array& list, void* owner) {
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!list[i].is_table())
+      table.fail_node(list[i], join_path(join_path(table.path(), key.name), i), "a table");
+  for (const TableView& one : table.tables(key.name)) read_table(one, key.open(owner, ""));
+}
+
+void read_named_tables(const TableView& table, const Key& key, const toml::table& tables, void* owner) {
+  for (const std::string& name : names_in_order(tables)) {
+    const toml::node& node = *tables.get(name);
+    const std::string path = join_path(join_path(table.path(), key.name), name);
+    if (name.empty() || has_control_characters(name))
+      table.diagnostics().add(
+          path, node.source().begin, path,
+          fmt::format("found {}, expected a name that is not empty, without line breaks or other control "
+                      "characters",
+                      name.empty() ? "an empty name" : "control characters in the name"));
+    if (const toml::table* one = node.as_table())
+      read_table({*one, path, *key.table, table.diagnostics()}, key.open(owner, name));
+    else
+      table.fail_node(node, path, "a table " + key.table->heading);
+  }
+}
+
+/// Reads a key that holds tables. False: the node is none that it could hold.
+bool read_as_tables(const TableView& table, const Key& key, const toml::node& node, void* owner) {
+  const toml::array* list = node.as_array();
+  const toml::table* tables = node.as_table();
+  if (key.shape.kind == Kind::tables) {
+    if (list == nullptr || (key.required && list->empty())) return false;
+    read_tables(table, key, *list, owner);
+  } else if (tables == nullptr || (key.shape.kind == Kind::named_tables && tables->empty())) {
+    return false;
+  } else if (key.shape.kind == Kind::named_tables) {
+    read_named_tables(table, key, *tables, owner);
+  } else {
+    read_table(*table.table(key.name), key.open(owner, ""));
+  }
+  return true;
+}
+
+void read_key(const TableView& table, const Key& key, const toml::node& node, void* owner) {
+  if (key.table != nullptr && read_as_tables(table, key, node, owner)) return;
+  if (const std::optional<Value> value = ValueReader(table, key).read(node)) key.set(owner, *value);
+}
+
+}  // namespace
+
+void read_table(const TableView& table, void* owner) {
+  check_keys(table);
+  for (const Key& key : table.schema().keys) {
+    if (const toml::node* node = table.toml().get(key.name))
+      read_key(table, key, *node, owner);
+    else if (key.fallback && std::ranges::none_of(table.schema().alternatives_of(key.name),
+                                                  [&](const std::string& other) { return table.has(other); }))
+      key.set(owner, *key.fallback);
+  }
+}
+
+}  // namespace vitrum::scene

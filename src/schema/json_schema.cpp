@@ -1,0 +1,123 @@
+#include "schema/json_schema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace vitrum::schema {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: an open end is no bound, and taplo makes null of inf.
+Json number_schema(const Key& key) {
+  const Bounds& b = key.bounds;
+  Json json{{"type", "number"}};
+  if (b.contain(intervals::infinite) || b.contain(-intervals::infinite)) json["type"] = {"number", "null"};
+  if (std::isfinite(b.lowest)) json[b.lowest_open ? "exclusiveMinimum" : "minimum"] = b.lowest;
+  if (std::isfinite(b.highest)) json[b.highest_open ? "exclusiveMaximum" : "maximum"] = b.highest;
+  return json;
+}
+
+Json integer_schema(const Key& key) {
+  if (!key.admitted.empty()) return {{"enum", key.admitted}};
+  Json json = number_schema(key);
+  json["type"] = "integer";
+  return json;
+}
+
+Json text_schema(const Key& key) {
+  std::vector<std::string> choices = key.choices;
+  choices.insert(choices.end(), key.choices_elsewhere.begin(), key.choices_elsewhere.end());
+  return choices.empty() ? Json{{"type", "string"}} : Json{{"enum", choices}};
+}
+
+/// Of `length` items or, 0, of any number from `least` on.
+Json list_schema(Json items, std::size_t length, std::size_t least = 0) {
+  Json json{{"type", "array"}, {"items", std::move(items)}};
+  if (std::max(length, least) > 0) json["minItems"] = std::max(length, least);
+  if (length > 0) json["maxItems"] = length;
+  return json;
+}
+
+Json table_schema(const Table& table);
+
+Json value_schema(const Key& key) {
+  const auto [kind, length, width] = key.shape;
+  switch (kind) {
+    case Kind::number:
+      return number_schema(key);
+    case Kind::integer:
+      return integer_schema(key);
+    case Kind::flag:
+      return {{"type", "boolean"}};
+    case Kind::text:
+      return text_schema(key);
+    case Kind::numbers:
+      return list_schema(number_schema(key), length, 1);
+    case Kind::rows:
+      return list_schema(list_schema(number_schema(key), width), length, 1);
+    case Kind::texts: {
+      Json json = list_schema(text_schema(key), length);
+      json["uniqueItems"] = true;
+      return json;
+    }
+    case Kind::table:
+      return table_schema(*key.table);
+    case Kind::tables:
+      return list_schema(table_schema(*key.table), 0, key.required ? 1 : 0);
+    case Kind::named_tables: {
+      Json json{{"type", "object"}, {"additionalProperties", table_schema(*key.table)}};
+      if (key.required) json["minProperties"] = 1;
+      return json;
+    }
+  }
+  return Json::object();
+}
+
+Json value_json(const Value& value) {
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json key_schema(const Key& key) {
+  Json json = value_schema(key);
+  if (key.table != nullptr && key.get) json = {{"anyOf", {std::move(json), table_schema(*key.table)}}};
+  json["description"] = key.text + "\n\n" + expected(key);
+  if (key.fallback) json["default"] = value_json(*key.fallback);
+  return json;
+}
+
+/// Where one key is needed, each by itself; else no two together.
+Json alternatives_schema(const Alternatives& group) {
+  Json rules = Json::array();
+  for (std::size_t i = 0; i < group.keys.size(); ++i)
+    if (!group.needed.empty())
+      rules.push_back({{"required", Json::array({group.keys[i]})}});
+    else
+      for (std::size_t j = 0; j < i; ++j) rules.push_back({{"required", {group.keys[j], group.keys[i]}}});
+  if (!group.needed.empty()) return {{"oneOf", std::move(rules)}};
+  return {{"not", {{"anyOf", std::move(rules)}}}};
+}
+
+Json table_schema(const Table& table) {
+  Json json{{"type", "object"}, {"additionalProperties", false}};
+  Json properties = Json::object(), required = Json::array();
+  for (const Key& key : table.keys) {
+    properties[key.name] = key_schema(key);
+    if (key.required) required.push_back(key.name);
+  }
+  json["properties"] = std::move(properties);
+  if (!required.empty()) json["required"] = std::move(required);
+  for (const Alternatives& group : table.alternatives) json["allOf"].push_back(alternatives_schema(group));
+  return json;
+}
+
+}  // namespace
+
+std::string json_schema(const Table& table, const std::string& title) {
+  Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  json.update(table_schema(table));
+  return json.dump(2) + '\n';
+}
+
+}  // namespace vitrum::schema
