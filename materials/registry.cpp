@@ -4,13 +4,20 @@
 #include <stdexcept>
 
 #include "materials/composite/make.hpp"
+#include "materials/johnson_cook.hpp"
+#include "materials/johnson_holmquist.hpp"
+#include "materials/maxwell.hpp"
 #include "materials/register.hpp"
 
 namespace vitrum {
 
 std::span<const RegisteredLaw> registered_laws() {
   // One line a law: law<Law>("table", "what it is").
-  static const std::vector<RegisteredLaw> laws{};
+  static const std::vector<RegisteredLaw> laws{
+      law<JohnsonHolmquist>("johnson_holmquist", "JH-2: glass and ceramics under high pressure"),
+      law<JohnsonCook>("johnson_cook", "metals at high rates, heated by their plastic work"),
+      law<Maxwell>("maxwell", "viscoelasticity of interlayers, a Prony series"),
+  };
   return laws;
 }
 

@@ -19,12 +19,20 @@ struct ParameterRow {
   bool is_list;
 };
 
+/// A key of a law's table whose value the others, or the elasticity, exclude.
+struct Contradiction {
+  std::string_view key;
+  std::string expected;
+};
+
 /// A law that a scene names by the table [material.NAME.TABLE] instead of the composite's models.
 struct RegisteredLaw {
   std::string table;
   std::string text;  ///< what it is, a sentence for the scene reference
   std::vector<ParameterRow> parameters;
   std::vector<Variable> variables;  ///< all that it may store
+  /// Of parameters.law, each of whose values is within its bounds.
+  std::function<std::optional<Contradiction>(const MaterialParameters& parameters)> contradiction;
   /// Of parameters.law. cell: side of the grid cells, m.
   std::function<std::shared_ptr<const Material>(const MaterialParameters& parameters, double cell)> make;
 };

@@ -15,6 +15,26 @@ double first_reached(double low, double high, Predicate&& reached) {
   return high;
 }
 
+/// Root, to rounding, of a continuous function that is negative at `low` and not negative at `high` (Ridders'
+/// method: it keeps the root between two points, and doubles the digits with two values).
+template <class Function>
+double rising_root(double low, double high, Function&& function) {
+  double at_low = function(low), at_high = function(high), last = high;
+  const auto narrow = [&](double x, double value) {
+    (value < 0.0 ? low : high) = x, (value < 0.0 ? at_low : at_high) = value;
+  };
+  for (int i = 0; i < 100 && at_low < 0.0 && at_high > 0.0; ++i) {
+    const double half = 0.5 * (high - low), middle = low + half, at_middle = function(middle);
+    if (middle <= low || middle >= high) break;
+    const double x = middle - half * at_middle / std::sqrt(at_middle * at_middle - at_low * at_high);
+    narrow(middle, at_middle);
+    if (x > low && x < high) narrow(x, function(x));
+    if (std::abs(x - last) <= 1e-15 * std::abs(x)) return x;
+    last = x;
+  }
+  return std::abs(at_low) < std::abs(at_high) ? low : high;
+}
+
 /// Argument of the least value of `function` in [low, high], where it falls and then rises, by golden
 /// section.
 template <class Function>

@@ -101,6 +101,12 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
         "\"{}\")\n",
         duration_text(facts["seconds_most"].get<double>()),
         scene::name_of(scene::local_methods, scene.constitutive.method));
+  for (const Body& body : system.bodies)
+    if (scene.constitutive.method != LocalMethod::closed_form && body.material->event_driven() == nullptr)
+      text += fmt::format(
+          "# body '{}': the law of material '{}' is taken in closed form, whatever constitutive.method "
+          "says\n",
+          body.name, body.material->parameters().name);
   text += fmt::format(
       "# critical step {}{:.6g} s (body '{}')\n",
       scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",

@@ -53,8 +53,8 @@ void warn_of_wave_speed(const TableView& material, const ElasticParameters& give
                             slowest, fastest, meant));
 }
 
-/// A registered law stands alone.
-void check_law(const TableView& table) {
+/// A registered law stands alone, and its keys agree with each other.
+void check_law(const TableView& table, const MaterialParameters& material) {
   std::string_view named;
   for (const RegisteredLaw& law : registered_laws()) {
     if (!table.has(law.table)) continue;
@@ -67,6 +67,11 @@ void check_law(const TableView& table) {
     if (table.has(model))
       table.report(model,
                    fmt::format("found together with '{}', expected no other model in the material", named));
+  const RegisteredLaw& law = *find_law(material.law->table);
+  for (const std::string_view key : {std::string_view(law.table), std::string_view("density"),
+                                     std::string_view("young"), std::string_view("poisson")})
+    if (!table.sound(key)) return;
+  if (const auto fault = law.contradiction(material)) table.table(law.table)->fail(fault->key, fault->expected);
 }
 
 void check_material(const TableView& table, const MaterialParameters& material) {
@@ -80,7 +85,7 @@ void check_material(const TableView& table, const MaterialParameters& material) 
   if (table.has("drucker_prager") && table.has("von_mises"))
     table.report("von_mises",
                  "found together with 'drucker_prager', expected only one plasticity model in a material");
-  if (material.law) check_law(table);
+  if (material.law) check_law(table, material);
 }
 
 }  // namespace

@@ -27,7 +27,36 @@ struct RegisteredSample {
 
 /// By the law's table. A new law has its entry here; the conformance test asks for it.
 inline const std::map<std::string, RegisteredSample>& registered_samples() {
-  static const std::map<std::string, RegisteredSample> samples{};
+  static const std::map<std::string, RegisteredSample> samples{
+      {"johnson_holmquist",  // float glass
+       {{2530.0, 74.558e9, 0.22629},
+        {{"A", {0.93}},
+         {"N", {0.77}},
+         {"B", {0.088}},
+         {"M", {0.35}},
+         {"fractured_limit", {0.5}},
+         {"C", {0.003}},
+         {"T", {0.15e9}},
+         {"HEL", {5.95e9}},
+         {"PHEL", {2.92e9}},
+         {"D1", {0.053}},
+         {"D2", {0.85}},
+         {"K2", {-138.0e9}},
+         {"K3", {290.0e9}}},
+        2e-2}},
+      {"johnson_cook",  // 4340 steel
+       {{7830.0, 205.0e9, 0.29},
+        {{"A", {792.0e6}},
+         {"B", {510.0e6}},
+         {"n", {0.26}},
+         {"C", {0.014}},
+         {"m", {1.03}},
+         {"melting_temperature", {1793.0}},
+         {"heat_capacity", {477.0}}},
+        2e-2}},
+      {"maxwell",
+       {{1070.0, 1.31e9, 0.39}, {{"ratios", {0.5, 0.3, 0.15}}, {"times", {2e-8, 1e-6, 3.0}}}, 1e-2}},
+  };
   return samples;
 }
 

@@ -145,8 +145,11 @@ TEST_CASE("a law starts within its bounds, at the stress that it is given", "[ma
                                    material.wave_speed() * SymmetricTensor{-1.0, -0.8, -0.9, 0.1};
     const PointState s = material.start(stress);
     CHECK(norm(material.stress(s) - stress) <= 1e-9 * norm(stress));
-    for (std::size_t k = 0; k < material.columns().size(); ++k)
-      CHECK(value_of(material, s, k) == material.columns()[k].initial);
+    const PointState free = material.start({});
+    for (std::size_t k = 0; k < material.columns().size(); ++k) {
+      CHECK(value_of(material, free, k) == material.columns()[k].initial);
+      CHECK(material.columns()[k].bounds.contain(value_of(material, s, k)));
+    }
     CHECK(material.strain_scale() > 0.0);
   }
 }
