@@ -17,6 +17,7 @@
 #include "output/provenance.hpp"
 #include "output/reference_page.hpp"
 #include "scene/input_error.hpp"
+#include "scene/presets.hpp"
 #include "scene/reference_page.hpp"
 
 namespace vitrum::app {
@@ -140,7 +141,7 @@ int obey(int argc, char** argv) {
           "NONNEGATIVE"));
   compare_command.add_flag("--json", compared.json, "print JSON");
 
-  bool result_page = false;
+  bool result_page = false, materials = false;
   std::string schema;
   CLI::App& reference_command =
       *program.add_subcommand("reference", "the scene reference as Markdown, from the program's own tables");
@@ -151,6 +152,9 @@ int obey(int argc, char** argv) {
                 "a JSON schema of scenes instead, for editors; --schema=point: of point files")
       ->check(CLI::IsMember({"scene", "point"}))
       ->excludes(of_result);
+  reference_command.add_flag("--materials", materials, "the presets of materials with their sources instead")
+      ->excludes(of_result)
+      ->excludes("--schema");
 
   for (CLI::App* command : program.get_subcommands({})) command->footer(examples_of(command->get_name()));
   program.footer(examples_of(""));
@@ -173,7 +177,7 @@ int obey(int argc, char** argv) {
   else if (!schema.empty())
     show(schema == "point" ? point_schema() : scene_schema());
   else if (reference_command)
-    show(result_page ? output::result_reference() : scene_reference());
+    show(result_page ? output::result_reference() : materials ? materials_page() : scene_reference());
   else {
     show(program.help());
     return exit_input;

@@ -74,7 +74,8 @@ std::string examples_of(std::string_view command) {
   vitrum compare out/plate out/fast --fields position --tolerance 1  # exit status 1 where one differs by more
   vitrum compare out/plate out/fast --json)"},
       Example{"reference", R"(  vitrum reference > scene-reference.md
-  vitrum reference --result > result-format.md)"},
+  vitrum reference --result > result-format.md
+  vitrum reference --materials > materials.md)"},
       Example{"", R"(  vitrum check plate.toml
   vitrum run plate.toml --out out/plate
   vitrum info out/plate

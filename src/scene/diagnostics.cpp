@@ -59,16 +59,24 @@ std::size_t Diagnostics::override_at(std::string_view path) const {
   return number;
 }
 
-std::string Diagnostics::place(std::string_view origin, const toml::source_position& where) const {
-  const std::size_t number = override_at(origin);
+/// The key that stands in the input for what is at `path`.
+Diagnostics::Origin Diagnostics::origin_of(std::string_view path, const toml::source_position& where) const {
+  const auto noted = std::ranges::find_if(origins_, [&](const auto& entry) { return is_at_or_below(path, entry.first); });
+  return noted == origins_.end() ? Origin{std::string(path), where} : noted->second;
+}
+
+std::string Diagnostics::place(std::string_view path, const toml::source_position& where) const {
+  const Origin origin = origin_of(path, where);
+  const std::size_t number = override_at(origin.key);
   return number != 0 ? fmt::format("--set {}", number)
-                     : fmt::format("{}:{}:{}", file_, where.line, where.column);
+                     : fmt::format("{}:{}:{}", file_, origin.where.line, origin.where.column);
 }
 
 Diagnostics::Message Diagnostics::message(const std::string& origin, const toml::source_position& where,
                                           std::string_view key, std::string_view fact) const {
-  const std::size_t number = override_at(origin);
-  return {number, number != 0 ? toml::source_position{} : where, std::string(key),
+  const Origin named = origin_of(origin, where);
+  const std::size_t number = override_at(named.key);
+  return {number, number != 0 ? toml::source_position{} : named.where, std::string(key),
           fmt::format("{}: {}", place(origin, where), sentence(key, fact))};
 }
 

@@ -21,6 +21,14 @@ class Diagnostics {
   /// there.
   void note_override(const std::string& path, std::size_t number);
 
+  /// A key, and where the file has it.
+  struct Origin {
+    std::string key;
+    toml::source_position where;
+  };
+  /// What stands at and below `path` is not in the input: it comes from `origin`, a preset's name.
+  void note_origin(const std::string& path, const Origin& origin) { origins_[path] = origin; }
+
   /// Item `index` of the list at `path` is no more: the ones behind it have moved up.
   void note_removal(const std::string& path, std::size_t index);
 
@@ -60,9 +68,11 @@ class Diagnostics {
                   std::string_view fact) const;
   static std::vector<std::string> in_order(std::vector<Message> messages);
   std::size_t override_at(std::string_view path) const;
+  Origin origin_of(std::string_view path, const toml::source_position& where) const;
 
   std::string file_;
   std::map<std::string, std::size_t, std::less<>> overrides_;
+  std::map<std::string, Origin, std::less<>> origins_;
   std::vector<Message> faults_, warnings_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "materials/registry.hpp"
 #include "scene/choices.hpp"
+#include "scene/presets.hpp"
 #include "scene/scene_tables.hpp"
 
 namespace vitrum::scene {
@@ -144,12 +145,24 @@ Field<MaterialParameters> law_field(const RegisteredLaw& law) {
   return field;
 }
 
+/// Presets fill a material before it is read (presets.hpp): the row is for those who ask what a scene may say.
+Field<MaterialParameters> preset_row() {
+  using M = MaterialParameters;
+  auto row = Field<M>::of("preset", {schema::Kind::text},
+                          "a material of `vitrum reference --materials`: gives every key that the scene does not",
+                          schema::Need::optional, [](const M&) -> std::optional<schema::Value> { return std::nullopt; },
+                          [](M&, const schema::Value&) {});
+  for (const auto& [name, unused] : presets()) row.choices.emplace_back(name.str());
+  return row;
+}
+
 }  // namespace
 
 const Table& material_table() {
   using M = MaterialParameters;
   static const Table table = [] {
     Fields<M> rows = schema::joined({}, &M::elastic, parameter_rows<ElasticParameters>());
+    rows.push_back(preset_row());
     const Fields<M> models{
         {"damage", &M::damage, damage_table(), "rate-dependent tensile damage; absent: none"},
         {"drucker_prager", &M::drucker_prager, drucker_prager_table(),

@@ -9,6 +9,7 @@
 #include "scene/input_text.hpp"
 #include "scene/key_depth.hpp"
 #include "scene/overrides.hpp"
+#include "scene/presets.hpp"
 #include "scene/read_table.hpp"
 #include "scene/scene_tables.hpp"
 #include "scene/toml_text.hpp"
@@ -29,8 +30,13 @@ toml::table parse_document(std::string_view text, std::string_view name,
     throw InputError(
         scene::single_line(fmt::format("{}:{}:{}: {}", name, where.line, where.column, error.description())));
   }
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    scene::apply_override(document, overrides[i], i + 1, diagnostics);
+  // Presets are chosen first, so that whatever else is set, or taken away, is that of the chosen ones.
+  for (const bool chooses : {true, false}) {
+    for (std::size_t i = 0; i < overrides.size(); ++i)
+      if (scene::names_preset(overrides[i]) == chooses)
+        scene::apply_override(document, overrides[i], i + 1, diagnostics);
+    scene::apply_presets(document, diagnostics);
+  }
   return document;
 }
 
