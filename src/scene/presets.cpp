@@ -107,6 +107,7 @@ Presets: `[material.NAME]` with `preset = ".."` has the values below, each unles
 `[material.NAME.johnson_cook]` and `temperature = 400.0`). `check` prints the scene with all of them filled in. SI units; what the keys mean is in the
 [scene reference](scene-reference.md), the laws are in the [theory](theory.md#4-other-laws). Published constants are fits to some batch of a material under some loading:
 read the source before a conclusion depends on them.
+The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*.
 
 This page is printed by the program from the table that its reader uses (`vitrum reference --materials`); do not edit it.
 )";
