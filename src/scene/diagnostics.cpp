@@ -61,7 +61,8 @@ std::size_t Diagnostics::override_at(std::string_view path) const {
 
 /// The key that stands in the input for what is at `path`.
 Diagnostics::Origin Diagnostics::origin_of(std::string_view path, const toml::source_position& where) const {
-  const auto noted = std::ranges::find_if(origins_, [&](const auto& entry) { return is_at_or_below(path, entry.first); });
+  const auto noted =
+      std::ranges::find_if(origins_, [&](const auto& entry) { return is_at_or_below(path, entry.first); });
   return noted == origins_.end() ? Origin{std::string(path), where} : noted->second;
 }
 

@@ -145,13 +145,15 @@ Field<MaterialParameters> law_field(const RegisteredLaw& law) {
   return field;
 }
 
-/// Presets fill a material before it is read (presets.hpp): the row is for those who ask what a scene may say.
+/// Presets fill a material before it is read (presets.hpp): the row is for those who ask what a scene may
+/// say.
 Field<MaterialParameters> preset_row() {
   using M = MaterialParameters;
-  auto row = Field<M>::of("preset", {schema::Kind::text},
-                          "a material of `vitrum reference --materials`: gives every key that the scene does not",
-                          schema::Need::optional, [](const M&) -> std::optional<schema::Value> { return std::nullopt; },
-                          [](M&, const schema::Value&) {});
+  auto row = Field<M>::of(
+      "preset", {schema::Kind::text},
+      "a material of `vitrum reference --materials`: gives every key that the scene does not",
+      schema::Need::optional, [](const M&) -> std::optional<schema::Value> { return std::nullopt; },
+      [](M&, const schema::Value&) {});
   for (const auto& [name, unused] : presets()) row.choices.emplace_back(name.str());
   return row;
 }
@@ -172,10 +174,13 @@ const Table& material_table() {
         {"decohesion", &M::decohesion, decohesion_table(), "from localisation to separation; absent: none"}};
     rows.insert(rows.end(), models.begin(), models.end());
     for (const RegisteredLaw& law : registered_laws()) rows.push_back(law_field(law));
-    return table_of("[material.NAME]",
-                    "Isotropic elasticity; each table in it switches a model on. A model that is absent is "
-                    "neither stored nor run.",
-                    rows);
+    Table t =
+        table_of("[material.NAME]",
+                 "Isotropic elasticity; each table in it switches a model on. A model that is absent is "
+                 "neither stored nor run.",
+                 rows);
+    t.filled_by = "preset";
+    return t;
   }();
   return table;
 }

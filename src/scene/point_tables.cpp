@@ -62,7 +62,9 @@ const Table& point_table() {
   using P = PointScene;
   static const Table table = table_of<P>(
       "Point file", "`vitrum point` drives one material point along a strain path.",
-      {Field<P>::named("material", &P::material, material_table(), "the material, as in a scene", required)
+      {{"parameters", &P::parameters, "1", intervals::finite,
+        "numbers by name, for formulas: wherever a number stands, a text that begins with `=` is one"},
+       Field<P>::named("material", &P::material, material_table(), "the material, as in a scene", required)
            .expecting("one table [material.NAME]"),
        {"constitutive", &P::constitutive, constitutive_table(), "as in a scene"},
        {"state", &P::given, state_table(), "state at the start of the path (default: virgin)"},

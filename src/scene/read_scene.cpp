@@ -63,8 +63,9 @@ void note_places(const toml::node& node, const std::string& path, const scene::D
 
 Scene parse_scene(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
+  scene::Formulas formulas;
   const toml::table table = parse_document(text, name, overrides, diagnostics);
-  const scene::TableView document(table, "", scene::scene_table(geometry_of(table)), diagnostics);
+  const scene::TableView document(table, "", scene::scene_table(geometry_of(table)), diagnostics, formulas);
   Scene scene;
   scene.verbatim = text;
   scene.overrides = overrides;
@@ -75,6 +76,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   scene::check_boundaries(document, scene);
   scene::check_contact(document, scene);
   diagnostics.throw_if_any();
+  scene.formulas = formulas.used();
   scene.warnings = diagnostics.warnings();
   note_places(table, "", diagnostics, scene.places);
   return scene;
@@ -83,8 +85,9 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
 PointScene parse_point(std::string_view text, std::string_view name,
                        const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
+  scene::Formulas formulas;
   const toml::table table = parse_document(text, name, overrides, diagnostics);
-  const scene::TableView document(table, "", scene::point_table(), diagnostics);
+  const scene::TableView document(table, "", scene::point_table(), diagnostics, formulas);
   PointScene point;
   scene::read_table(document, &point);
   if (const std::size_t found = document.tables("material").size(); found > 1)
@@ -95,6 +98,7 @@ PointScene parse_point(std::string_view text, std::string_view name,
   scene::check_path(document, point);
   diagnostics.throw_if_any();
   point.state = scene::start_of(point);
+  point.formulas = formulas.used();
   point.warnings = diagnostics.warnings();
   return point;
 }

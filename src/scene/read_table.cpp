@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -68,6 +69,8 @@ class ValueReader {
         return number(node, path_, expected(key_));
       case Kind::integer:
         return integer(node);
+      case Kind::named_numbers:
+        return named_numbers(node);
       case Kind::flag:
         return node.is_boolean() ? std::optional<Value>(node.as_boolean()->get()) : wrong();
       case Kind::text:
@@ -101,22 +104,62 @@ class ValueReader {
   }
 
   std::optional<Value> number(const toml::node& node, const std::string& path, std::string_view what) const {
+    if (node.is_string() && is_formula(node.as_string()->get())) return formula(node, path, what);
     if (!node.is_number()) return wrong(node, path, what);
     const double found =
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
     return key_.bounds.contain(found) ? std::optional<Value>(found) : wrong(node, path, what);
   }
 
+  std::optional<Value> formula(const toml::node& node, const std::string& path, std::string_view what) const {
+    const std::string& text = node.as_string()->get();
+    const std::variant<double, std::string> result = table_.formulas().value(text);
+    if (const auto* fault = std::get_if<std::string>(&result))
+      return wrong(node, path, fmt::format("a formula: {}", *fault));
+    const double found = std::get<double>(result);
+    if (!key_.bounds.contain(found))
+      return wrong(node, path, fmt::format("{}; the formula gives {}", what, number_text(found)));
+    table_.formulas().note(path, text);
+    return found;
+  }
+
+  std::optional<Value> named_numbers(const toml::node& node) const {
+    if (!node.is_table()) return wrong();
+    schema::NamedNumbers numbers;
+    for (const std::string& name : names_in_order(*node.as_table())) {
+      const toml::node& item = *node.as_table()->get(name);
+      const std::string path = join_path(path_, name);
+      const std::optional<Value> value = number(item, path, expected_component(key_));
+      if (!value) continue;
+      const std::string fault = table_.formulas().define(name, std::get<double>(*value));
+      if (!fault.empty())
+        table_.diagnostics().add(path, item.source().begin, path, "found a parameter of this name, " + fault);
+      numbers.emplace_back(name, std::get<double>(*value));
+    }
+    return numbers;
+  }
+
+  std::optional<Value> integer_formula(const toml::node& node) const {
+    const std::optional<Value> value = formula(node, path_, expected(key_));
+    if (!value) return value;
+    const double found = std::get<double>(*value);
+    return admits(found) ? std::optional<Value>(static_cast<int>(found)) : wrong();
+  }
+
+  /// Whether a number is an integer that the key takes.
+  bool admits(double number) const {
+    using Limits = std::numeric_limits<int>;
+    if (number != std::floor(number) || number < Limits::min() || number > Limits::max()) return false;
+    if (!key_.bounds.contain(number)) return false;
+    return key_.admitted.empty() ||
+           std::ranges::find(key_.admitted, static_cast<int>(number)) != key_.admitted.end();
+  }
+
   std::optional<Value> integer(const toml::node& node) const {
+    if (node.is_string() && is_formula(node.as_string()->get())) return integer_formula(node);
     if (!node.is_integer()) return wrong();
     const std::int64_t found = node.as_integer()->get();
-    using Limits = std::numeric_limits<int>;
-    if (found < Limits::min() || found > Limits::max() || !key_.bounds.contain(static_cast<double>(found)))
-      return wrong();
-    const int value = static_cast<int>(found);
-    const bool admitted =
-        key_.admitted.empty() || std::ranges::find(key_.admitted, value) != key_.admitted.end();
-    return admitted ? std::optional<Value>(value) : wrong();
+    return admits(static_cast<double>(found)) ? std::optional<Value>(static_cast<int>(found)) : wrong();
   }
 
   std::optional<Value> text(const toml::node& node, const std::string& path, const std::string& what) const {
@@ -189,7 +232,7 @@ void read_named_tables(const TableView& table, const Key& key, const toml::table
                       "characters",
                       name.empty() ? "an empty name" : "control characters in the name"));
     if (const toml::table* one = node.as_table())
-      read_table({*one, path, *key.table, table.diagnostics()}, key.open(owner, name));
+      read_table({*one, path, *key.table, table.diagnostics(), table.formulas()}, key.open(owner, name));
     else
       table.fail_node(node, path, "a table " + key.table->heading);
   }

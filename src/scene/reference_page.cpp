@@ -22,6 +22,11 @@ values out of bounds are errors, all of a file at once, each with its line and c
 expected. A number is finite unless its row says that inf is admitted.
 The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*; equation numbers are its.
 
+Wherever a number stands, a text that begins with `=` is a formula: `max = ["=R", "=5*mm"]`. It may use the numbers of `[parameters]` (each those before it),
+`mm um us ns ms GPa MPa kPa g pi`, and what [muParser](https://beltoforion.de/en/muparser/) knows (`+ - * / ^`, comparisons, `a ? b : c`, `sqrt`, `sin`, `exp`, `min`, ...).
+`--set parameters.R=0.4` changes all formulas with `R`. Formulas are evaluated when the scene is read; the resolved scene has their values, and the formulas
+behind them as comments.
+
 Any key can be given on the command line, by its dotted path and as a TOML value: `--set time.end=1e-4`,
 `--set 'integrator.scheme="musl"'`. Items of a list go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800` and
 `--set body.cylinder.velocity.1=-800` (a name with dots, or of digits, in quotes: `--set 'body."2".velocity.1=-800'`). Missing keys and tables are created,

@@ -11,6 +11,7 @@
 #include "integrators/local/cvode_family.hpp"
 #include "materials/law.hpp"
 #include "mpm/shape_kind.hpp"
+#include "schema/value.hpp"
 
 namespace vitrum {
 
@@ -118,6 +119,7 @@ struct ContactDefinition {
 /// A validated scene. Everything is SI; every default is filled in.
 struct Scene {
   std::string title;
+  schema::NamedNumbers parameters;  ///< of formulas
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
   mpm::ShapeKind shape_functions = mpm::ShapeKind::linear;
@@ -128,11 +130,12 @@ struct Scene {
   std::vector<BodyDefinition> bodies;
   std::vector<BoundaryDefinition> boundaries;
   ContactDefinition contact;
-  Vector2 gravity{0.0, 0.0};                  ///< m/s^2
-  std::vector<MaterialParameters> materials;  ///< in the order of the file
-  std::string verbatim;                       ///< the file's text, unchanged
-  std::vector<std::string> overrides;         ///< the --set arguments, in order
-  std::vector<std::string> warnings;          ///< what reading found implausible, in the order of the file
+  Vector2 gravity{0.0, 0.0};                    ///< m/s^2
+  std::vector<MaterialParameters> materials;    ///< in the order of the file
+  std::string verbatim;                         ///< the file's text, unchanged
+  std::vector<std::string> overrides;           ///< the --set arguments, in order
+  std::map<std::string, std::string> formulas;  ///< that keys had in place of numbers, by dotted path
+  std::vector<std::string> warnings;            ///< what reading found implausible, in the order of the file
   /// Where each key stands, by dotted path: "FILE:LINE:COLUMN" or "--set N".
   std::map<std::string, std::string> places;
 
@@ -151,6 +154,8 @@ struct StateDefinition {
 
 /// A validated point file (`vitrum point`).
 struct PointScene {
+  schema::NamedNumbers parameters;              ///< of formulas
+  std::map<std::string, std::string> formulas;  ///< as a scene's
   MaterialParameters material;
   ConstitutiveDefinition constitutive;
   std::optional<StateDefinition> given;  ///< by [state]; `state` follows from it

@@ -34,6 +34,8 @@ Table make_scene_table(Geometry geometry) {
   return table_of<Scene>(
       "The file", "Tables of the document.",
       {{"title", &Scene::title, "shown in summaries and pictures"},
+       {"parameters", &Scene::parameters, "1", intervals::finite,
+        "numbers by name, for formulas: wherever a number stands, a text that begins with `=` is one"},
        {"space", space_table(), "geometry and grid", required},
        {"time", time_table(), "time span", required},
        {"integrator", &Scene::integrator, integrator_table(), "the grid momentum equations", required},

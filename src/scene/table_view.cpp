@@ -67,7 +67,8 @@ void TableView::report(std::string_view fact) const {
 std::optional<TableView> TableView::table(std::string_view key) const {
   const toml::node* node = table_->get(key);
   if (node == nullptr || !node->is_table()) return std::nullopt;
-  return TableView(*node->as_table(), join_path(path_, key), *schema_->find(key)->table, *diagnostics_);
+  return TableView(*node->as_table(), join_path(path_, key), *schema_->find(key)->table, *diagnostics_,
+                   *formulas_);
 }
 
 std::vector<TableView> TableView::tables(std::string_view key) const {
@@ -76,7 +77,7 @@ std::vector<TableView> TableView::tables(std::string_view key) const {
   const std::string path = join_path(path_, key);
   const auto add = [&](const toml::node& node, const std::string& path_of_node) {
     if (const toml::table* table = node.as_table())
-      views.emplace_back(*table, path_of_node, *row.table, *diagnostics_);
+      views.emplace_back(*table, path_of_node, *row.table, *diagnostics_, *formulas_);
   };
   const toml::node* node = table_->get(key);
   if (node != nullptr && node->is_array() && row.shape.kind == schema::Kind::tables)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/diagnostics.hpp"
+#include "scene/formulas.hpp"
 #include "schema/table.hpp"
 
 namespace vitrum::scene {
@@ -18,8 +19,13 @@ std::string found_text(const toml::node& node);
 class TableView {
  public:
   /// All arguments but `path` must outlive the view.
-  TableView(const toml::table& table, std::string path, const schema::Table& schema, Diagnostics& diagnostics)
-      : table_(&table), path_(std::move(path)), schema_(&schema), diagnostics_(&diagnostics) {}
+  TableView(const toml::table& table, std::string path, const schema::Table& schema, Diagnostics& diagnostics,
+            Formulas& formulas)
+      : table_(&table),
+        path_(std::move(path)),
+        schema_(&schema),
+        diagnostics_(&diagnostics),
+        formulas_(&formulas) {}
 
   bool has(std::string_view key) const { return table_->contains(key); }
   /// Whether nothing has been reported of the key, or below it: what was read from it, or its default, holds.
@@ -47,6 +53,7 @@ class TableView {
   const schema::Table& schema() const { return *schema_; }
   const std::string& path() const { return path_; }
   Diagnostics& diagnostics() const { return *diagnostics_; }
+  Formulas& formulas() const { return *formulas_; }
   /// Where the value of `key` starts in the file; {0, 0} when it does not come from the file.
   toml::source_position position(std::string_view key) const;
 
@@ -58,6 +65,7 @@ class TableView {
   std::string path_;
   const schema::Table* schema_;
   Diagnostics* diagnostics_;
+  Formulas* formulas_;
 };
 
 /// The names in a table of tables in the order of the file; those that only --set gives come last.

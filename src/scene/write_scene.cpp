@@ -7,7 +7,7 @@
 namespace vitrum {
 
 std::string resolved_toml(const Scene& scene) {
-  return scene::table_text(scene::scene_table(scene.geometry), &scene);
+  return scene::table_text(scene::scene_table(scene.geometry), &scene, scene.formulas);
 }
 
 std::string point_toml(const PointScene& point) {
@@ -17,7 +17,7 @@ std::string point_toml(const PointScene& point) {
   const std::shared_ptr<const Material> material = make_material(point.material, point.size);
   for (std::size_t k = 0; k < material->columns().size(); ++k)
     given.variables[material->columns()[k].name] = value_of(*material, point.state, k);
-  return scene::table_text(scene::point_table(), &written);
+  return scene::table_text(scene::point_table(), &written, point.formulas);
 }
 
 }  // namespace vitrum

@@ -1,7 +1,6 @@
 #include "scene/write_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "scene/toml_text.hpp"
 
@@ -24,6 +23,12 @@ std::string text_of(bool value) {
 std::string text_of(const std::string& value) {
   return toml_quoted(value);
 }
+std::string text_of(const schema::NamedNumbers& numbers) {
+  std::string text;
+  for (const auto& [name, value] : numbers)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key_text(name), number_text(value));
+  return '{' + text + '}';
+}
 template <class Item>
 std::string text_of(const std::vector<Item>& items) {
   std::string text;
@@ -31,35 +36,67 @@ std::string text_of(const std::vector<Item>& items) {
   return '[' + text + ']';
 }
 
-/// `KEY = VALUE` for each key with a value, tables in one line among them.
-std::vector<std::string> assignments(const Table& table, const void* owner) {
-  std::vector<std::string> list;
+using Texts = std::map<std::string, std::string>;
+
+/// The formulas at and below `path`, as a comment.
+std::string comment(const std::string& path, const Texts& formulas) {
+  std::string text;
+  for (auto f = formulas.lower_bound(path); f != formulas.end() && f->first.starts_with(path); ++f)
+    if (f->first.size() == path.size() || f->first[path.size()] == '.')
+      text += (text.empty() ? "  # " : ", ") + single_line(f->second);
+  return text;
+}
+
+/// `KEY = VALUE` for each key with a value, by the key; tables in one line among them.
+std::vector<std::pair<std::string, std::string>> assignments(const Table& table, const void* owner) {
+  std::vector<std::pair<std::string, std::string>> list;
   for (const Key& key : table.keys) {
     const auto value = key.get ? key.get(owner) : std::nullopt;
-    if (value) list.push_back(fmt::format("{} = {}", key.name, value_text(*value)));
+    if (value) list.emplace_back(key.name, fmt::format("{} = {}", key.name, value_text(*value)));
     if (key.table == nullptr || !key.table->in_one_line) continue;
     const void* inner = key.look(owner, 0);
     if (inner == nullptr) continue;
-    list.push_back(fmt::format("{} = {{{}}}", key.name, fmt::join(assignments(*key.table, inner), ", ")));
+    std::string text;
+    for (const auto& [name, line] : assignments(*key.table, inner)) text += (text.empty() ? "" : ", ") + line;
+    list.emplace_back(key.name, fmt::format("{} = {{{}}}", key.name, text));
   }
   return list;
 }
 
-void write(const Table& table, const void* owner, const std::string& path, std::string& text) {
-  for (const std::string& line : assignments(table, owner)) text += line + '\n';
-  for (const Key& key : table.keys) {
-    if (key.table == nullptr || key.table->in_one_line) continue;
-    const std::string name = join_path(path, key.name);
+/// Writes a document part by part.
+class Writer {
+ public:
+  explicit Writer(const Texts& formulas) : formulas_(formulas) {}
+
+  /// The keys of a table that stands at `place`; in headers its name is `path`, without the indices of lists.
+  void write(const Table& table, const void* owner, const std::string& path, const std::string& place) {
+    for (const auto& [name, line] : assignments(table, owner))
+      text_ += line + comment(join_path(place, name), formulas_) + '\n';
+    for (const Key& key : table.keys)
+      if (key.table != nullptr && !key.table->in_one_line)
+        write_tables(key, owner, join_path(path, key.name), join_path(place, key.name));
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  void write_tables(const Key& key, const void* owner, const std::string& path, const std::string& place) {
     const void* inner = nullptr;
     for (std::size_t n = 0; (inner = key.look(owner, n)) != nullptr; ++n) {
-      const std::string full = key.table_name ? join_path(name, key.table_name(inner)) : name;
-      const std::string header = '[' + full + ']';
-      text += fmt::format("{}{}\n", text.empty() ? "" : "\n",
-                          key.shape.kind == Kind::tables ? '[' + header + ']' : header);
-      write(*key.table, inner, full, text);
+      const bool in_list = key.shape.kind == Kind::tables;
+      const std::string name = key.table_name ? join_path(path, key.table_name(inner)) : path;
+      text_ += fmt::format("{0}{1}[{2}]{3}\n", text_.empty() ? "" : "\n", in_list ? "[" : "", name,
+                           in_list ? "]" : "");
+      write(*key.table, inner, name,
+            in_list          ? join_path(place, n)
+            : key.table_name ? join_path(place, key.table_name(inner))
+                             : place);
     }
   }
-}
+
+  const Texts& formulas_;
+  std::string text_;
+};
 
 }  // namespace
 
@@ -67,10 +104,11 @@ std::string value_text(const schema::Value& value) {
   return std::visit([](const auto& v) { return text_of(v); }, value);
 }
 
-std::string table_text(const Table& table, const void* owner) {
-  std::string text;
-  write(table, owner, "", text);
-  return text;
+std::string table_text(const Table& table, const void* owner,
+                       const std::map<std::string, std::string>& formulas) {
+  Writer writer(formulas);
+  writer.write(table, owner, "", "");
+  return writer.take();
 }
 
 }  // namespace vitrum::scene

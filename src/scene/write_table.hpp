@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 
 #include "schema/table.hpp"
@@ -10,6 +11,8 @@ std::string value_text(const schema::Value& value);
 
 /// A struct as TOML, every default filled in: read_table reads it back as the same. Keys whose absence means
 /// something stay absent.
-std::string table_text(const schema::Table& table, const void* owner);
+/// `formulas`, by the path of their key, stand behind their values as comments.
+std::string table_text(const schema::Table& table, const void* owner,
+                       const std::map<std::string, std::string>& formulas = {});
 
 }  // namespace vitrum::scene

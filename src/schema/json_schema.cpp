@@ -12,8 +12,8 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity: an open end is no bound, and taplo makes null of inf.
 Json number_schema(const Key& key) {
   const Bounds& b = key.bounds;
-  Json json{{"type", "number"}};
-  if (b.contain(intervals::infinite) || b.contain(-intervals::infinite)) json["type"] = {"number", "null"};
+  Json json{{"type", {"number", "string"}}, {"pattern", "^="}};  // a formula is a text
+  if (b.contain(intervals::infinite) || b.contain(-intervals::infinite)) json["type"].push_back("null");
   if (std::isfinite(b.lowest)) json[b.lowest_open ? "exclusiveMinimum" : "minimum"] = b.lowest;
   if (std::isfinite(b.highest)) json[b.highest_open ? "exclusiveMaximum" : "maximum"] = b.highest;
   return json;
@@ -22,7 +22,7 @@ Json number_schema(const Key& key) {
 Json integer_schema(const Key& key) {
   if (!key.admitted.empty()) return {{"enum", key.admitted}};
   Json json = number_schema(key);
-  json["type"] = "integer";
+  json["type"][0] = "integer";
   return json;
 }
 
@@ -40,9 +40,10 @@ Json list_schema(Json items, std::size_t length, std::size_t least = 0) {
   return json;
 }
 
-Json table_schema(const Table& table);
+/// `whole`: required keys are required. (They are not where a preset may give them.)
+Json table_schema(const Table& table, bool whole);
 
-Json value_schema(const Key& key) {
+Json value_schema(const Key& key, bool whole) {
   const auto [kind, length, width] = key.shape;
   switch (kind) {
     case Kind::number:
@@ -62,12 +63,14 @@ Json value_schema(const Key& key) {
       json["uniqueItems"] = true;
       return json;
     }
+    case Kind::named_numbers:
+      return {{"type", "object"}, {"additionalProperties", number_schema(key)}};
     case Kind::table:
-      return table_schema(*key.table);
+      return table_schema(*key.table, whole);
     case Kind::tables:
-      return list_schema(table_schema(*key.table), 0, key.required ? 1 : 0);
+      return list_schema(table_schema(*key.table, whole), 0, key.required ? 1 : 0);
     case Kind::named_tables: {
-      Json json{{"type", "object"}, {"additionalProperties", table_schema(*key.table)}};
+      Json json{{"type", "object"}, {"additionalProperties", table_schema(*key.table, whole)}};
       if (key.required) json["minProperties"] = 1;
       return json;
     }
@@ -76,12 +79,17 @@ Json value_schema(const Key& key) {
 }
 
 Json value_json(const Value& value) {
+  if (const auto* named = std::get_if<NamedNumbers>(&value)) {
+    Json json = Json::object();
+    for (const auto& [name, number] : *named) json[name] = number;
+    return json;
+  }
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
-Json key_schema(const Key& key) {
-  Json json = value_schema(key);
-  if (key.table != nullptr && key.get) json = {{"anyOf", {std::move(json), table_schema(*key.table)}}};
+Json key_schema(const Key& key, bool whole) {
+  Json json = value_schema(key, whole);
+  if (key.table != nullptr && key.get) json = {{"anyOf", {std::move(json), table_schema(*key.table, whole)}}};
   json["description"] = key.text + "\n\n" + expected(key);
   if (key.fallback) json["default"] = value_json(*key.fallback);
   return json;
@@ -99,15 +107,18 @@ Json alternatives_schema(const Alternatives& group) {
   return {{"not", {{"anyOf", std::move(rules)}}}};
 }
 
-Json table_schema(const Table& table) {
+Json table_schema(const Table& table, bool whole) {
   Json json{{"type", "object"}, {"additionalProperties", false}};
   Json properties = Json::object(), required = Json::array();
   for (const Key& key : table.keys) {
-    properties[key.name] = key_schema(key);
+    properties[key.name] = key_schema(key, whole && table.filled_by.empty());
     if (key.required) required.push_back(key.name);
   }
   json["properties"] = std::move(properties);
-  if (!required.empty()) json["required"] = std::move(required);
+  if (!table.filled_by.empty())
+    json["anyOf"] = {{{"required", Json::array({table.filled_by})}}, {{"required", std::move(required)}}};
+  else if (whole && !required.empty())
+    json["required"] = std::move(required);
   for (const Alternatives& group : table.alternatives) json["allOf"].push_back(alternatives_schema(group));
   return json;
 }
@@ -116,7 +127,7 @@ Json table_schema(const Table& table) {
 
 std::string json_schema(const Table& table, const std::string& title) {
   Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
-  json.update(table_schema(table));
+  json.update(table_schema(table, true));
   return json.dump(2) + '\n';
 }
 

@@ -122,6 +122,8 @@ std::string expected(const Key& key) {
                           "numbers", key);
     case Kind::texts:
       return texts_text(key);
+    case Kind::named_numbers:
+      return fmt::format("a table [{}] of {}", key.name, numbers_text("", "numbers", key).substr(1));
     case Kind::table:
       return table_text(*key.table);
     case Kind::tables:

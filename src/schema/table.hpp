@@ -55,6 +55,8 @@ struct Table {
   std::vector<Key> keys;
   bool in_one_line = false;  ///< how it is written: {centre = [..], radius = ..}
   std::vector<Alternatives> alternatives{};
+  /// A key whose presence gives all others, also in the tables below, that the file does not: a preset.
+  std::string filled_by{};
 
   const Key* find(std::string_view name) const;
   std::vector<std::string> names() const;

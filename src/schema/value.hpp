@@ -13,14 +13,28 @@
 namespace vitrum::schema {
 
 using Numbers = std::vector<double>;
+/// Numbers by names that the file gives them, in its order.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// What a key that is no table holds.
-using Value =
-    std::variant<double, int, bool, std::string, Numbers, std::vector<Numbers>, std::vector<std::string>>;
+using Value = std::variant<double, int, bool, std::string, Numbers, std::vector<Numbers>,
+                           std::vector<std::string>, NamedNumbers>;
 
 /// The kinds of values, in the order of Value, and of tables: one, a list of them, and a table of tables
 /// whose keys are names.
-enum class Kind { number, integer, flag, text, numbers, rows, texts, table, tables, named_tables };
+enum class Kind {
+  number,
+  integer,
+  flag,
+  text,
+  numbers,
+  rows,
+  texts,
+  named_numbers,
+  table,
+  tables,
+  named_tables
+};
 
 struct Shape {
   Kind kind;
@@ -111,6 +125,16 @@ struct Codec<std::array<T, n>> {
     Codec<std::vector<T>>::assign(rows, value);
     std::copy_n(rows.begin(), n, member.begin());
   }
+};
+
+/// None is absence.
+template <>
+struct Codec<NamedNumbers> {
+  static Shape shape() { return {Kind::named_numbers}; }
+  static std::optional<Value> value(const NamedNumbers& member) {
+    return member.empty() ? std::nullopt : std::optional<Value>(member);
+  }
+  static void assign(NamedNumbers& member, const Value& value) { member = std::get<NamedNumbers>(value); }
 };
 
 /// `n` texts.

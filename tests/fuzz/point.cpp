@@ -17,7 +17,9 @@ constexpr int most_increments = 24;
 
 void demand_same_when_resolved(const PointScene& point) {
   const std::string resolved = point_toml(point);
-  demand(point_toml(parse_point(resolved, "resolved.toml")) == resolved,
+  PointScene again = parse_point(resolved, "resolved.toml");
+  again.formulas = point.formulas;  // comments, which are not read
+  demand(point_toml(again) == resolved,
          "the resolved point reads as the same point");
 }
 

@@ -99,12 +99,10 @@ void give_defaults(const schema::Table& table, const std::string& path, const st
       CHECK(resolved_toml(parse_scene(base, "s.toml", {override})) == base);
       ++given;
     }
-    if (key.table != nullptr && !key.table->in_one_line)
-      give_defaults(*key.table,
-                    at + (in_list                  ? ".0."
-                          : key.name == "material" ? ".glass."
-                                                   : "."),
-                    base, given);
+    if (key.table == nullptr || key.table->in_one_line) continue;
+    const std::string table_path = at + (key.name == "material" ? ".glass" : "");
+    if (base.find('[' + table_path + ']') != std::string::npos)  // of the tables that there are
+      give_defaults(*key.table, table_path + (in_list ? ".0." : "."), base, given);
   }
 }
 

@@ -87,8 +87,9 @@ const schema::Table& outer_table() {
 Outer read(std::string_view text) {
   const toml::table document = toml::parse(text);
   scene::Diagnostics diagnostics("f");
+  scene::Formulas formulas;
   Outer outer;
-  scene::read_table({document, "", outer_table(), diagnostics}, &outer);
+  scene::read_table({document, "", outer_table(), diagnostics, formulas}, &outer);
   diagnostics.throw_if_any();
   return outer;
 }
@@ -190,7 +191,7 @@ TEST_CASE("a row's bounds, choices, default and meaning stand in the JSON schema
   CHECK(json["additionalProperties"] == false);
   CHECK(keys["number"]["minimum"] == -1.0);
   CHECK(keys["number"]["description"].get<std::string>().starts_with("a number"));
-  CHECK(keys["maybe"]["type"] == nlohmann::json{"number", "null"});
+  CHECK(keys["maybe"]["type"] == nlohmann::json{"number", "string", "null"});
   CHECK(keys["integer"]["default"] == 3);
   CHECK(keys["square"]["enum"] == nlohmann::json{1, 4, 9});
   CHECK(keys["colour"]["enum"] == nlohmann::json{"red", "green"});
