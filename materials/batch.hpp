@@ -306,7 +306,7 @@ double Batch<Law>::take_inelastic(const ParticleColumns& p, std::size_t i, State
   report.dissipated.damage += volume * point.dissipation.damage;
   report.dissipated.fracture += volume * point.dissipation.fracture;
   report.dissipated.snap_back += volume * point.dissipation.snap_back;
-  for (std::size_t k = 0; k < point.event_count; ++k) report.events.push_back({i, point.events[k]});
+  for (const Event& event : point.events) report.events.push_back({i, event});
   const SymmetricTensor& e = s.elastic_strain;
   p.elastic_strain[0][i] = e.rr, p.elastic_strain[1][i] = e.zz, p.elastic_strain[2][i] = e.tt,
   p.elastic_strain[3][i] = e.rz;

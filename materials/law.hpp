@@ -16,6 +16,7 @@
 
 namespace vitrum {
 enum class EventKind { damage, yield, peak, localisation, separation, closure };
+inline constexpr std::size_t event_kinds = 6;
 std::string_view event_name(EventKind kind);
 
 /// Something that happened inside an increment, at `fraction` in [0, 1] of it.
@@ -53,22 +54,19 @@ struct SolverCounters {
 
 /// What one increment of one point did besides changing its state.
 struct PointReport {
-  static constexpr std::size_t capacity = 16;
-  std::array<Event, capacity> events{};
-  std::size_t event_count = 0;  ///< an increment that fires more keeps the first `capacity`
+  std::vector<Event> events;  ///< in the order in which they happened
   Dissipation dissipation;
   SolverCounters solver;
   std::string cause;  ///< not empty: the increment could not be integrated
 
   bool failed() const { return !cause.empty(); }
   /// Forgets the last increment.
-  void clear() { event_count = 0, dissipation = {}, solver = {}, cause.clear(); }
+  void clear() { events.clear(), dissipation = {}, solver = {}, cause.clear(); }
 
   /// Events come in the order in which they happen; what rounding says otherwise is no time.
   void record(EventKind kind, double fraction) {
-    if (event_count == capacity) return;
-    if (event_count > 0) fraction = std::max(fraction, events[event_count - 1].fraction);
-    events[event_count++] = {kind, fraction};
+    if (!events.empty()) fraction = std::max(fraction, events.back().fraction);
+    events.push_back({kind, fraction});
   }
 };
 

@@ -1,6 +1,6 @@
 # Include direction, lowest layer first; a layer may include itself and those before it, never those after it.
-set(LAYERS parallel tensor schema materials integrators/sundials integrators/local mpm integrators/grid "scene|output|analysis" app)
-set(DIRS src/parallel src/tensor src/schema materials integrators/sundials integrators/local src/mpm integrators/grid "src/scene|src/output|src/analysis" src/app)
+set(LAYERS parallel tensor schema materials integrators/sundials integrators/local mpm integrators/grid scene observe output app)
+set(DIRS src/parallel src/tensor src/schema materials integrators/sundials integrators/local src/mpm integrators/grid src/scene src/observe src/output src/app)
 set(FAULTS "")
 list(LENGTH LAYERS COUNT)
 math(EXPR LAST "${COUNT} - 1")

@@ -17,8 +17,7 @@ int main() {
     vitrum::PointReport report;
     material->advance(point, increment, step, report);
     std::printf("%.9g %.9g %.9g %.9g", n * step, n * increment.rr, point.stress.rr, material->damage(point));
-    for (const vitrum::Event& event : std::span(report.events).first(report.event_count))
-      std::printf(" %s", event_name(event.kind).data());
+    for (const vitrum::Event& event : report.events) std::printf(" %s", event_name(event.kind).data());
     std::printf("\n");
   }
 }

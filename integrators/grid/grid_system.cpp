@@ -230,6 +230,7 @@ void GridSystem::commit(double t, const double* y) {
   system_.record.kinetic = start_kinetic_ + gained;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
   if (works_) system_.record.external_work += y[2 * n] - std::exchange(committed_work_, y[2 * n]);
+  system_.record.particles_moved = false;
 }
 
 double GridSystem::end_phase(const double* y) {
@@ -240,6 +241,7 @@ double GridSystem::end_phase(const double* y) {
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
   mpm::fill_field(system_, nodes_, y, committed_time_ - start_time_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::position, 1.0);
+  system_.record.particles_moved = true;
   return on_grid - system_.record.kinetic;
 }
 

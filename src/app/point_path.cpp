@@ -48,8 +48,8 @@ class Walk {
  private:
   /// Of an increment from the present time on.
   void tell_events(const PointReport& report, double to) const {
-    for (std::size_t k = 0; k < report.event_count; ++k)
-      listener_.event(report.events[k].kind, time_ + report.events[k].fraction * (to - time_));
+    for (const Event& event : report.events)
+      listener_.event(event.kind, time_ + event.fraction * (to - time_));
   }
 
   const Material& material_;

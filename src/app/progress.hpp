@@ -1,8 +1,8 @@
 #pragma once
 #include <chrono>
 
-#include "analysis/energy_totals.hpp"
 #include "integrators/grid/grid_integrator.hpp"
+#include "observe/energy_totals.hpp"
 
 namespace vitrum::app {
 

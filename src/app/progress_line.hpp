@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <string>
 
-#include "analysis/energy_totals.hpp"
 #include "integrators/grid/grid_integrator.hpp"
+#include "observe/energy_totals.hpp"
 
 namespace vitrum::app {
 

@@ -27,11 +27,13 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
       system_(std::move(system)),
       whole_(system_.axisymmetric ? 2.0 * std::numbers::pi : 1.0),
       integrator_(make_grid_integrator(scene.integrator, system_)),
-      ledger_(system_),
-      failure_(system_),
+      observers_(scene, system_),
+      ledger_(observers_.get<EnergyLedger>()),
+      failure_(observers_.get<FailureAnalysis>()),
       watchdog_(scene.integrator.max_growth, *integrator_),
       schedule_(scene),
       progress_(scene.start, scene.end, system_.axisymmetric ? "J" : "J/m", options.quiet),
+      tables_(directory_, observers_.tables(), !system_.axisymmetric),
       warned_(std::move(warned)) {
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
   fields_ = output::select_fields(scene, materials);
@@ -131,12 +133,11 @@ std::string Simulation::keep_failed_point(const PointFailure& failure) {
 
 bool Simulation::step_done(System& system, double step) {
   state_.last_step = step;
-  ledger_.book(system);
-  failure_.observe(system, step);
+  observers_.step(system, step);
   failed_ = watchdog_.look(system, ledger_, step);
   if (failed_) return false;
   try {
-    write_due_energy_row();
+    tables_.write_due();
   } catch (const FileError& error) {
     unwritten_ = error.what();  // the integrator must be left in order
     return false;

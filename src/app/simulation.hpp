@@ -3,25 +3,27 @@
 #include <filesystem>
 #include <optional>
 
-#include "analysis/energy_ledger.hpp"
-#include "analysis/failure.hpp"
 #include "app/machine.hpp"
 #include "app/progress.hpp"
 #include "app/run_command.hpp"
 #include "app/run_state.hpp"
 #include "app/schedule.hpp"
+#include "app/table_files.hpp"
 #include "app/warnings.hpp"
 #include "app/watchdog.hpp"
 #include "mpm/computation_error.hpp"
-#include "output/energy_csv.hpp"
+#include "observe/energy_ledger.hpp"
+#include "observe/failure.hpp"
+#include "observe/observers.hpp"
+#include "output/checkpoint.hpp"
 #include "output/folder_lock.hpp"
 #include "output/result_file.hpp"
 #include "output/summary.hpp"
 
 namespace vitrum::app {
 
-/// One run of a scene: steps from target to target, books energies, watches stability, writes outputs and
-/// checkpoints.
+/// One run of a scene: steps from target to target, lets observers look on, watches stability, writes outputs
+/// and checkpoints.
 class Simulation final : private StepObserver {
  public:
   /// Starts in a folder without a run, or resumes from its checkpoint.h5. Throws InputError, FileError.
@@ -46,9 +48,7 @@ class Simulation final : private StepObserver {
   void require_folder();
   void write_output();
   void write_checkpoint();
-  void write_energy_row();
-  void write_due_energy_row();
-  std::vector<output::SeriesValue> series() const;
+  std::vector<Quantity> series() const;
   int finish(output::RunStatus status, std::string message, int exit_status);
   int conclude(output::RunStatus status, const std::string& message, int exit_status);
   output::RunSummary summary(output::RunStatus status, const std::string& message) const;
@@ -65,19 +65,20 @@ class Simulation final : private StepObserver {
   System system_;
   double whole_;  ///< 2 pi in axisymmetric scenes: files show the whole body
   std::unique_ptr<GridIntegrator> integrator_;
-  EnergyLedger ledger_;
-  FailureAnalysis failure_;
+  Observers observers_;
+  EnergyLedger& ledger_;
+  FailureAnalysis& failure_;
   Watchdog watchdog_;
   Schedule schedule_;
   Progress progress_;
   std::vector<std::string> fields_;
   output::Provenance provenance_;
   std::optional<output::ResultFile> result_;
-  std::optional<output::EnergyCsv> energy_csv_;
+  TableFiles tables_;
   RunState state_;
   Warnings warned_;  ///< before the run
   std::optional<std::string> failed_;
-  std::optional<std::string> unwritten_;  ///< why a row of energy.csv could not be written
+  std::optional<std::string> unwritten_;  ///< why rows of a table could not be written
 };
 
 }  // namespace vitrum::app

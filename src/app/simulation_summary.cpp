@@ -8,30 +8,13 @@
 #include "app/simulation.hpp"
 #include "mpm/contact/contact.hpp"
 #include "mpm/stress.hpp"
+#include "observe/bodies.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
-
-output::BodySummary summarise(const Body& body, double whole) {
-  output::BodySummary s;
-  const Particles& p = body.particles;
-  s.name = body.name;
-  s.particles = p.size;
-  for (std::size_t i = 0; i < p.size; ++i) {
-    const double m = whole * p.mass[i];
-    s.mass += m;
-    for (std::size_t k = 0; k < 2; ++k) {
-      s.momentum[k] += m * p.velocity[k][i];
-      s.centre[k] += m * p.position[k][i];
-      s.kinetic += 0.5 * m * p.velocity[k][i] * p.velocity[k][i];
-    }
-  }
-  for (double& c : s.centre) c /= s.mass;
-  return s;
-}
 
 bool finite_state(const System& system) {
   for (const Body& body : system.bodies) {
@@ -57,12 +40,14 @@ int Simulation::finish(output::RunStatus status, std::string message, int exit_s
     try {
       // What a failed run computed last is a result, as long as it is numbers.
       if (finite_state(system_)) write_output();
-      write_energy_row();
+      observers_.tell_last(system_);
+      tables_.write_all();
     } catch (const FileError& error) {
       message += fmt::format("; its last state could not be written: {}", error.what());
     }
   } else if (status == output::RunStatus::complete) {
-    write_energy_row();  // not if interrupted: a resumed run goes on with the rows of its checkpoint
+    observers_.tell_last(system_);  // not if interrupted: a resumed run goes on with the rows it has
+    tables_.write_all();
   }
   return conclude(status, message, exit_status);
 }
@@ -75,6 +60,7 @@ int Simulation::conclude(output::RunStatus status, const std::string& message, i
   s.warnings.insert(s.warnings.end(), found.begin(), found.end());
   try {
     require_folder();
+    tables_.store();
     result_->settle();
     output::write_summary(directory_ / "summary.json", s);
   } catch (const FileError& error) {
@@ -137,8 +123,8 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.energy = shown_energy();
   s.failure = failure_.report(system_, finite_state(system_));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
-    s.bodies.push_back(summarise(system_.bodies[n], whole_));
-    s.bodies.back().failure = s.failure.bodies[n];
+    const Body& body = system_.bodies[n];
+    s.bodies.push_back({body.name, body.particles.size, motion_of(body, whole_), s.failure.bodies[n]});
   }
   if (system_.contact)
     for (std::size_t n = 0; n < system_.contact->pairs().size(); ++n) {

@@ -9,12 +9,31 @@
 #include "app/encounters.hpp"
 #include "app/material_warnings.hpp"
 #include "app/plausibility.hpp"
+#include "observe/probes.hpp"
 #include "scene/boundary_checks.hpp"
 #include "scene/grid_method.hpp"
+#include "scene/input_error.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::app {
 namespace {
+
+constexpr const char* place_names[] = {"point", "line", "box"};
+
+/// A probe that looks at nothing, or far from where it was meant to.
+void judge_probes(const Scene& scene, const System& system, Warnings& list) {
+  for (std::size_t n = 0; n < scene.probes.size(); ++n) {
+    const ProbeDefinition& probe = scene.probes[n];
+    const Probed probed = find_probed(probe, system.bodies[body_of(probe, system)]);
+    const std::string key = fmt::format("probe.{}.{}", n, place_names[probe.place.index()]);
+    if (probed.particles.empty())
+      throw InputError(fmt::format("{}: found a box without a particle of body '{}', expected some",
+                                   scene.at(key), probe.body));
+    if (probed.farthest > system.cell)
+      list.push_back(fmt::format("{}: the nearest particle of body '{}' is {:.3g} m away, more than a cell",
+                                 scene.at(key), probe.body, probed.farthest));
+  }
+}
 
 void warn_of_duration(const Scene& scene, const System& system, int threads, Warnings& list) {
   const Work work = work_of(scene, system, threads);
@@ -80,6 +99,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   Warnings list = scene.warnings;
   std::ranges::move(boundary_warnings(scene), std::back_inserter(list));
   const CriticalStep critical = critical_step_of(scene.integrator, system);
+  judge_probes(scene, system, list);
   warn_of_duration(scene, system, threads, list);
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);

@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "analysis/energy_ledger.hpp"
 #include "integrators/grid/grid_integrator.hpp"
+#include "observe/energy_ledger.hpp"
 
 namespace vitrum::app {
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "mpm/computation_error.hpp"
@@ -102,6 +104,17 @@ void open_record(StepRecord& record) {
 void enter(StepRecord& record, std::size_t body, const BatchReport& report) {
   record.dissipated += report.dissipated;
   for (const ParticleEvent& e : report.events) record.events.push_back({body, e.particle, e.event});
+}
+
+/// Puts the events of a step in an order that depends neither on how particles are stored nor on threads.
+void order_events(System& system) {
+  const auto identity = [&](const BodyEvent& e) {
+    return system.bodies[e.body].particles.identity[e.particle];
+  };
+  std::ranges::stable_sort(system.record.events, [&](const BodyEvent& a, const BodyEvent& b) {
+    return std::tuple(a.event.fraction, a.body, identity(a)) <
+           std::tuple(b.event.fraction, b.body, identity(b));
+  });
 }
 
 /// The columns from `place` on, of an increment that is committed: ends and starts are the same arrays.
@@ -214,6 +227,7 @@ void StressUpdate::book() {
     system_.constitutive_solver += reports_[k].solver;
     enter(system_.record, k % bodies, reports_[k]);
   }
+  order_events(system_);
   for (const Body& body : system_.bodies)
     system_.constitutive_evaluations += static_cast<std::int64_t>(body.on_grid());
   system_.constitutive_events += static_cast<std::int64_t>(system_.record.events.size());
@@ -227,6 +241,7 @@ void update_stress(System& system, double duration) {
                       system.record.elastic += report.elastic;
                       enter(system.record, n, report);
                     });
+  order_events(system);
   system.constitutive_events += static_cast<std::int64_t>(system.record.events.size());
 }
 

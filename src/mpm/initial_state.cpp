@@ -19,7 +19,7 @@ void judge_initial_states(System& system) {
       record.elastic += volume * body.material->stored_energy(s);
       const Dissipation& d = report.dissipation;
       record.dissipated += {volume * d.plastic, volume * d.damage, volume * d.fracture, volume * d.snap_back};
-      for (std::size_t k = 0; k < report.event_count; ++k) record.events.push_back({n, i, report.events[k]});
+      for (const Event& event : report.events) record.events.push_back({n, i, event});
     }
   }
   system.constitutive_events += static_cast<std::int64_t>(record.events.size());

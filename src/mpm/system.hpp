@@ -21,13 +21,14 @@ struct BodyEvent {
 /// What the last step did, summed over all bodies in a fixed order. Joules per radian (axisymmetric) or per
 /// metre.
 struct StepRecord {
-  double kinetic = 0.0;        ///< at the end of the step
-  double elastic = 0.0;        ///< stored, at the end of the step
-  Dissipation dissipated;      ///< in the step
-  double contact = 0.0;        ///< stored between bodies, at the end of the step
-  double friction = 0.0;       ///< dissipated between bodies in the step
-  double external_work = 0.0;  ///< of gravity and prescribed velocities in the step
-  std::vector<BodyEvent> events;
+  double kinetic = 0.0;           ///< at the end of the step
+  double elastic = 0.0;           ///< stored, at the end of the step
+  Dissipation dissipated;         ///< in the step
+  double contact = 0.0;           ///< stored between bodies, at the end of the step
+  double friction = 0.0;          ///< dissipated between bodies in the step
+  double external_work = 0.0;     ///< of gravity and prescribed velocities in the step
+  std::vector<BodyEvent> events;  ///< in order of time, body and identity
+  bool particles_moved = true;    ///< they stand where the time is: not so within a Lagrangian phase
 };
 
 namespace mpm {

@@ -1,12 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mpm/particles.hpp"
+#include "observe/archive.hpp"
 
 namespace vitrum::output {
 
@@ -23,10 +23,9 @@ struct Checkpoint {
   std::int64_t step_index = 0;
   std::string scene_sha256;  ///< of the resolved scene that was run
   std::vector<BodyCheckpoint> bodies;
-  std::map<std::string, std::vector<double>>
-      numbers;  ///< state of anything else, by name (no '/' and not empty)
-  /// Scene: resolved, as scene_sha256 tells; command: what continues the run.
-  std::map<std::string, std::string> texts;
+  /// State of anything else, by name. Its texts: scene (resolved, as scene_sha256 tells), command (what
+  /// continues the run), rows of tables that could not be written yet.
+  Archive state;
 };
 
 /// Writes atomically: `path` holds either its former checkpoint or all of this one. An HDF5 file with a
@@ -36,9 +35,6 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 /// Reads and validates. A file that is no checkpoint, truncated or altered by a single bit is refused with
 /// FileError before any of it is interpreted; so are columns of different lengths and unknown variables.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
-
-/// A text of a checkpoint. Throws FileError when it has none of this name.
-const std::string& text_of(const Checkpoint& checkpoint, const std::string& name);
 
 /// The checkpoint's view of bodies.
 std::vector<BodyCheckpoint> checkpoint_bodies(std::span<const Body> bodies);

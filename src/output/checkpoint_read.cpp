@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 #include "output/checkpoint.hpp"
 #include "output/checkpoint_columns.hpp"
@@ -91,6 +92,24 @@ void restore_variables(const BodyCheckpoint& stored, Body& body) {
     body.particles.variables[k] = stored.variables.at(body.material->columns()[k].name);
 }
 
+/// One array holds all numbers, one text their names: a data set for each would cost 300 bytes a number.
+Archive read_state(const Group& group) {
+  Archive state;
+  const std::vector<double> values = group.read_doubles("values");
+  std::istringstream names(group.read_text("names"));
+  std::string name;
+  for (std::size_t size = 0, at = 0; names >> name >> size; at += size) {
+    if (size > values.size() - at)
+      throw FileError(fmt::format("{}: '{}' has {} numbers, of which {} are there", group.label(), name, size,
+                                  values.size() - at));
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
+    state.put(name, std::vector<double>(first, first + static_cast<std::ptrdiff_t>(size)));
+  }
+  const Group texts = group.open_group("texts");
+  for (const std::string& text : texts.names()) state.put_text(text, texts.read_text(text));
+  return state;
+}
+
 }  // namespace
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
@@ -103,20 +122,12 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     throw FileError(fmt::format("{}: its time is {}", path.string(), checkpoint.time));
   checkpoint.step_index = root.integer_attribute(".", "step_index");
   checkpoint.scene_sha256 = root.text_attribute(".", "scene_sha256");
-  const Group bodies = root.open_group("bodies"), numbers = root.open_group("numbers"),
-              texts = root.open_group("texts");
+  const Group bodies = root.open_group("bodies");
   const std::size_t count = bodies.names().size();
   for (std::size_t index = 0; index < count; ++index)
     checkpoint.bodies.push_back(read_body(bodies.open_group(step_name(index))));
-  for (const std::string& name : numbers.names()) checkpoint.numbers[name] = numbers.read_doubles(name);
-  for (const std::string& name : texts.names()) checkpoint.texts[name] = texts.read_text(name);
+  checkpoint.state = read_state(root.open_group("state"));
   return checkpoint;
-}
-
-const std::string& text_of(const Checkpoint& checkpoint, const std::string& name) {
-  const auto entry = checkpoint.texts.find(name);
-  if (entry == checkpoint.texts.end()) throw FileError(fmt::format("checkpoint: '{}' is missing", name));
-  return entry->second;
 }
 
 void restore_bodies(const Checkpoint& checkpoint, std::span<Body> bodies) {

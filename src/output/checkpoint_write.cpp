@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
@@ -14,11 +13,6 @@
 namespace vitrum::output {
 namespace {
 
-void require_name(const std::string& name) {
-  if (name.empty() || name == "." || name.find('/') != std::string::npos)
-    throw std::invalid_argument(fmt::format("'{}' cannot name an entry of a checkpoint", name));
-}
-
 void write_body(const Group& group, const BodyCheckpoint& body) {
   group.set_attribute(".", "name", body.name);
   group.write("identity", body.particles.identity);
@@ -29,6 +23,19 @@ void write_body(const Group& group, const BodyCheckpoint& body) {
   for (const auto& [name, column] : body.variables) variables.write(name, column);
 }
 
+void write_state(const Group& group, const Archive& state) {
+  std::string names;
+  std::vector<double> all;
+  for (const auto& [name, values] : state.all_numbers()) {
+    names += fmt::format("{} {}\n", name, values.size());
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  group.write_text("names", names);
+  group.write("values", all);
+  const Group texts = group.create_group("texts");
+  for (const auto& [name, text] : state.all_texts()) texts.write_text(name, text);
+}
+
 void write_content(const Group& root, const Checkpoint& checkpoint) {
   root.set_attribute(".", "time", checkpoint.time);
   root.set_attribute(".", "step_index", checkpoint.step_index);
@@ -36,9 +43,7 @@ void write_content(const Group& root, const Checkpoint& checkpoint) {
   const Group bodies = root.create_group("bodies");
   for (std::size_t index = 0; index < checkpoint.bodies.size(); ++index)
     write_body(bodies.create_group(step_name(index)), checkpoint.bodies[index]);
-  const Group numbers = root.create_group("numbers"), texts = root.create_group("texts");
-  for (const auto& [name, values] : checkpoint.numbers) require_name(name), numbers.write(name, values);
-  for (const auto& [name, text] : checkpoint.texts) require_name(name), texts.write_text(name, text);
+  write_state(root.create_group("state"), checkpoint.state);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "observe/observer.hpp"
 #include "output/provenance.hpp"
 
 namespace vitrum::output {
@@ -16,20 +17,12 @@ struct Field {
   std::vector<double> values;  ///< particles x components, row-major
 };
 
-/// A quantity of the whole run at one output.
-struct SeriesValue {
-  std::string name;  ///< dataset below /series; not "time" or "step_index", which every output has anyway
-  std::string unit;
-  std::string description;
-  double value;
-};
-
 /// Everything one output adds to the result file.
 struct OutputFrame {
   double time = 0.0;            ///< s
   std::int64_t step_index = 0;  ///< time steps taken so far
   std::vector<Field> fields;    ///< all with the same particles; empty: no particle data
-  std::vector<SeriesValue> series;
+  std::vector<Quantity> series;
   std::vector<double>
       fragment;  ///< number of each particle's fragment, for drawing; empty: nothing can separate
 };

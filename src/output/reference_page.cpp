@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "materials/registry.hpp"
+#include "observe/registry.hpp"
 
 namespace vitrum::output {
 namespace {
@@ -18,7 +19,8 @@ A run writes into its output directory:
 | `steps/NNNNN.h5` | the particles at an output, a file each | at that output |
 | `steps/particles.h5` | what is constant of particles: body, mass, size | at the start |
 | `result.xdmf`, `steps/NNNNN.xmf` | open the outputs in ParaView | at every output |
-| `energy.csv` | the energy account | row by row |
+| `energy.csv`, `events.csv`, ... | tables of the whole run: [below](#tables) | row by row |
+| `tables.h5` | the same tables for HDF5's readers | at the end, whatever it was, and at a resumption |
 | `checkpoint.h5` | everything a resumed run needs | on a signal, as `output.checkpoint_every` asks, and when something else cannot be written |
 | `failed_point.toml` | the increment of a particle that could not be integrated | at such a failure |
 
@@ -27,7 +29,7 @@ A folder may be moved and copied as a whole: the links in it are relative.
 
 ## What a kill cannot break
 
-- No file but `energy.csv` is ever written in place. Its next version is written to a hidden file (`.NAME.next`) and put in place by renaming:
+- No files but tables (`*.csv`) are ever written in place. Its next version is written to a hidden file (`.NAME.next`) and put in place by renaming:
   at any moment, also after `kill -9`, each is complete, in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
 - `result.h5` always leads to the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
   read while the run goes on; a program that has it open keeps the version that it opened. What others write into it is lost at the next output.
@@ -35,13 +37,14 @@ A folder may be moved and copied as a whole: the links in it are relative.
   follows in groups of n/64 where outputs follow each other within 50 ms. Outputs that it does not show yet are complete all the same.
 - A power cut, unlike a kill, may cost what came after the last checkpoint: outputs are forced to disk when a checkpoint is written and at the end of
   the run, not one by one. Whole files of outputs may be missing or empty then; `--resume` goes on from the checkpoint.
-- A row of `energy.csv` is handed to the operating system as a whole line; one that a kill has cut has no end of line.
+- Rows of tables are handed to the operating system as whole lines, those of `events.csv` some hundred at a time (a kill may cost the last 16 kB of them,
+  which a resumed run writes anew). A row that a kill has cut within the system's own call has no end of line.
 - A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
 - Truncated and foreign files are refused with a message. All that HDF5 files hold carries checksums: HDF5's own for their structure
   (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
   reader, not another value. `vitrum info`, `compare` and `--resume` check what they read; they follow no links but open an output by its name,
   and refuse one whose time is not that of the series.
-- `--resume` removes the outputs that its checkpoint does not know, cuts `energy.csv` back, then continues. A resumed explicit run gives the
+- `--resume` removes the outputs that its checkpoint does not know, cuts tables back, then continues. A resumed explicit run gives the
   bits of an uninterrupted one; an adaptive run does from a planned checkpoint, and keeps its tolerance from one written on a signal.
 
 ## A folder belongs to one run
@@ -67,7 +70,7 @@ A folder may be moved and copied as a whole: the links in it are relative.
 
 ## `result.h5` and the outputs behind it
 
-HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. `/particles` and `/steps/NNNNN` are external links, which
+HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. `/particles`, `/steps/NNNNN`, `/tables` and `/events` are external links, which
 h5py and other readers follow by themselves. Texts are UTF-8; those in datasets have a fixed length
 (h5py hands them out as bytes). Those in attributes are there twice: `unit`, of variable length, which h5py hands out as `str`, and `.unit`, of
 a fixed length, which this program reads: HDF5 keeps the former in a heap without checksums, where a flipped bit makes HDF5 1.10 loop.
@@ -85,6 +88,8 @@ a fixed length, which this program reads: HDF5 keeps the former in a heap withou
 | `/steps/NNNNN` | attributes `time` (s), `step_index` | one group per output, from `00000` |
 | `/steps/NNNNN/particles/FIELD` | double, N or N x components | see below; absent with `--no-fields` |
 | `/steps/NNNNN/drawn/BODY/FIELD` | double | the same for ParaView, by number of the body: see below |
+| `/tables/TABLE/COLUMN` | double, one row per row of `TABLE.csv`; uint32 for a column of texts: index into `COLUMN_names` | as at the end of the run |
+| `/events` | the same as `/tables/events` | |
 | `/series/NAME` | double, one row per output | `time`, `step_index`, energies, counts, fronts, ...; NaN where the run gave no value |
 
 Every dataset of `/particles`, `/steps/NNNNN/particles` and `/series` has the attributes `unit` and `description`. Row i is the same particle in every
@@ -101,6 +106,14 @@ written, except `elastic_strain`. A variable is NaN for particles whose material
 | `velocity` | 2 | m/s | (r, z) or (x, y) |
 | `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](theory.md), 1.2). Cauchy's is this over the change of volume, from which it differs by 0.1 % where such glass fails |
 | `damage` | 1 | 1 | D = 1 - K_bar/K, eq. 8 |
+)";
+
+constexpr std::string_view before_tables = R"(
+## Tables
+
+CSV: the first line names the columns, numbers round-trip, a cell without a value is empty, names that hold a comma or a quote are quoted (RFC 4180).
+`energy.csv` and the histories never change the steps of a run: a row stands at the first step that ends when it is due or later; in
+`arkode-implicit` that of a history at the first end of a Lagrangian phase, where particles move.
 )";
 
 constexpr std::string_view after_variables =
@@ -125,11 +138,9 @@ with all fields an output takes 490 kB, 270 of them for this.
 `studies/paraview_run.py` sets a picture up: `pvpython studies/paraview_run.py OUT`, or from ParaView's Python shell. It reflects an axisymmetric run at its
 axis, draws each particle as a square of its size, and colours by separation.
 
-## `energy.csv`
+)";
 
-Header `time,step,kinetic,elastic,plastic,damage,fracture,external,residual,contact,friction`; s and J; `plastic`, `damage`, `fracture` and `friction` are
-dissipated so far, `contact` is stored between bodies, `external` is the work done so far, `residual` = initial + external - all the others. Numbers round-trip.
-
+constexpr std::string_view after_tables = R"(
 ## `summary.json`
 
 `null` stands for what did not happen, for models that are absent and for numbers that are not finite.
@@ -155,10 +166,19 @@ dissipated so far, `contact` is stored between bodies, `external` is the work do
 
 ## `checkpoint.h5`
 
-The first 512 bytes hold the line `vitrum checkpoint 4 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
-`step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/numbers` and `/texts` with
-the state of everything else. It is made for `--resume` of the same version, not for analysis.
+The first 512 bytes hold the line `vitrum checkpoint 5 sha256 DIGEST`, of all that follows; then comes HDF5: attributes `time`,
+`step_index`, `scene_sha256`; `/bodies/NNNNN` with every column of a body's particles in storage order; `/state` with the
+state of everything else by name (`names` lists name and size, `values` holds the numbers; `texts`). It is made for `--resume` of the same version, not for analysis.
 )";
+
+std::string section_of(const TableInfo& table) {
+  std::string text = fmt::format("\n### `{}.csv`\n\n{}\n\n| column | unit | meaning |\n|---|---|---|\n",
+                                 table.name, table.description);
+  for (const Column& column : table.columns)
+    text += fmt::format("| `{}` | {}{} | {} |\n", column.name, column.unit.empty() ? "text" : column.unit,
+                        column.of_whole ? ", per metre in plane strain" : "", column.description);
+  return text;
+}
 
 }  // namespace
 
@@ -167,7 +187,11 @@ std::string result_reference() {
   for (const Component& column : all_columns())
     if (column.name != "damage")  // which the table has already
       text += fmt::format("| `{}` | 1 | {} | {} |\n", column.name, column.unit, column.text);
-  return text += after_variables;
+  text += after_variables;
+  text += before_tables;
+  for (const ObserverKind& kind : observer_kinds())
+    if (kind.table != nullptr) text += section_of(*kind.table);
+  return text += after_tables;
 }
 
 }  // namespace vitrum::output

@@ -16,8 +16,8 @@ void describe(const Group& group, const std::string& name, const std::string& un
 }
 
 /// What an output adds to the series.
-std::vector<SeriesValue> series_of(const OutputFrame& frame) {
-  std::vector<SeriesValue> values = {
+std::vector<Quantity> series_of(const OutputFrame& frame) {
+  std::vector<Quantity> values = {
       {"time", "s", "simulated time", frame.time},
       {"step_index", "1", "time steps taken so far", static_cast<double>(frame.step_index)}};
   values.insert(values.end(), frame.series.begin(), frame.series.end());
@@ -55,6 +55,9 @@ std::string step_name(std::size_t index) {
 std::filesystem::path result_path(const std::filesystem::path& directory) {
   return directory / "result.h5";
 }
+std::filesystem::path tables_path(const std::filesystem::path& directory) {
+  return directory / "tables.h5";
+}
 std::filesystem::path steps_path(const std::filesystem::path& directory) {
   return directory / "steps";
 }
@@ -88,6 +91,8 @@ void write_header(const Group& root, const RunHeader& header) {
     provenance.set_attribute(".", std::string(entry.name), header.provenance.*entry.member);
   root.write_texts("bodies", header.particles.bodies);
   root.link_to_file("particles", "steps/particles.h5", "/particles");
+  root.link_to_file("tables", "tables.h5", "/");
+  root.link_to_file("events", "tables.h5", "/events");
   root.create_group("steps");
   root.create_group("series");
 }
@@ -123,7 +128,7 @@ void enter_steps(const Group& root, std::size_t first, std::span<const OutputFra
   std::map<std::string, std::vector<double>> rows;
   for (std::size_t n = 0; n < frames.size(); ++n) {
     steps.link_to_file(step_name(first + n), "steps/" + file_of_step(first + n), "/");
-    for (const SeriesValue& value : series_of(frames[n])) {
+    for (const Quantity& value : series_of(frames[n])) {
       if (!series.has(value.name)) {
         series.create_series(value.name);
         describe(series, value.name, value.unit, value.description);

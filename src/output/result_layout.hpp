@@ -19,8 +19,10 @@ inline constexpr const char* result_format = "vitrum result 3";
 /// Name of output `index`: at least five digits.
 std::string step_name(std::size_t index);
 
-/// Paths below a run's directory: the door, what is constant of particles, one output, and its XDMF.
+/// Paths below a run's directory: the door, the tables, what is constant of particles, one output, and its
+/// XDMF.
 std::filesystem::path result_path(const std::filesystem::path& directory);
+std::filesystem::path tables_path(const std::filesystem::path& directory);
 std::filesystem::path steps_path(const std::filesystem::path& directory);
 std::filesystem::path particles_path(const std::filesystem::path& directory);
 std::filesystem::path step_path(const std::filesystem::path& directory, std::size_t index);

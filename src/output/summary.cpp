@@ -135,10 +135,10 @@ Json failure_block(const FailureReport& failure) {
 
 Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments) {
   Json block = {{"particles", body.particles},
-                {"mass", number(body.mass)},
-                {"momentum", pair(body.momentum)},
-                {"centre", pair(body.centre)},
-                {"kinetic", number(body.kinetic)}};
+                {"mass", number(body.motion.mass)},
+                {"momentum", pair(body.motion.momentum)},
+                {"centre", pair(body.motion.centre)},
+                {"kinetic", number(body.motion.kinetic)}};
   add_measures(block, body.failure);
   block["fragments"] = std::count_if(fragments.begin(), fragments.end(),
                                      [&](const Fragment& f) { return f.body == body.name; });

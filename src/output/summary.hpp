@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/energy_totals.hpp"
-#include "analysis/failure_report.hpp"
 #include "integrators/grid/grid_integrator.hpp"
+#include "observe/bodies.hpp"
+#include "observe/energy_totals.hpp"
+#include "observe/failure_report.hpp"
 #include "output/provenance.hpp"
 
 namespace vitrum::output {
@@ -20,10 +21,7 @@ enum class RunStatus { complete, failed, interrupted };
 struct BodySummary {
   std::string name;
   std::size_t particles = 0;
-  double mass = 0.0;                 ///< kg
-  std::array<double, 2> momentum{};  ///< kg m/s, summed over particles
-  std::array<double, 2> centre{};    ///< m, of mass
-  double kinetic = 0.0;              ///< J
+  BodyMotion motion;
   FailureMeasures failure;
 };
 

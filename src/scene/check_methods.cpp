@@ -65,6 +65,7 @@ void check_methods(const TableView& document, const Scene& scene) {
   if (const auto output = document.table("output")) {
     require_countable(*output, "every", scene.output.every, scene);
     require_countable(*output, "checkpoint_every", scene.output.checkpoint_every, scene);
+    require_countable(*output, "history_every", scene.output.history_every, scene);
   }
 }
 

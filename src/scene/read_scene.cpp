@@ -75,6 +75,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   scene::check_bodies(document, scene);
   scene::check_boundaries(document, scene);
   scene::check_contact(document, scene);
+  scene::check_probes(document, scene);
   diagnostics.throw_if_any();
   scene.formulas = formulas.used();
   scene.warnings = diagnostics.warnings();

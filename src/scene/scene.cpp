@@ -22,4 +22,16 @@ const MaterialParameters& Scene::material_of(std::size_t body) const {
                        [&](const MaterialParameters& m) { return m.name == bodies[body].material; });
 }
 
+std::vector<Vector2> ProbeDefinition::points() const {
+  if (const auto* point = std::get_if<Vector2>(&place)) return {*point};
+  const auto& line = std::get<ProbeLine>(place);
+  std::vector<Vector2> points;
+  for (int k = 0; k < line.count; ++k) {
+    const double part = static_cast<double>(k) / (line.count - 1);
+    points.push_back({line.from[0] + part * (line.to[0] - line.from[0]),
+                      line.from[1] + part * (line.to[1] - line.from[1])});
+  }
+  return points;
+}
+
 }  // namespace vitrum

@@ -67,6 +67,20 @@ struct BoundaryDefinition {
   int priority = 0;            ///< of boundaries that hold the same nodes, the largest acts
 };
 
+/// Where a probe looks: at the particle nearest to a point, those nearest to evenly spaced points of a line,
+/// or at all particles of a box, as they stand at the start.
+struct ProbeLine {
+  Vector2 from{}, to{};  ///< m, both ends are points
+  int count = 2;
+};
+struct ProbeDefinition {
+  std::string name, body;
+  std::variant<Vector2, ProbeLine, Box> place;
+
+  /// Of a point or a line.
+  std::vector<Vector2> points() const;
+};
+
 struct IntegratorDefinition {
   GridMethod method = GridMethod::explicit_steps;
   StepScheme scheme = StepScheme::usf;
@@ -98,6 +112,8 @@ struct OutputDefinition {
   std::optional<double> every;                     ///< s; none: only the last state
   std::optional<std::vector<std::string>> fields;  ///< none: all that the scene's models have
   std::optional<double> checkpoint_every;          ///< s; none: only on a signal
+  std::optional<double> history_every;             ///< s; none: at every output
+  std::optional<std::vector<std::string>> events;  ///< kinds told in events.csv; none: all
 };
 
 /// What two bodies have of their own.
@@ -130,6 +146,7 @@ struct Scene {
   std::vector<BodyDefinition> bodies;
   std::vector<BoundaryDefinition> boundaries;
   ContactDefinition contact;
+  std::vector<ProbeDefinition> probes;
   Vector2 gravity{0.0, 0.0};                    ///< m/s^2
   std::vector<MaterialParameters> materials;    ///< in the order of the file
   std::string verbatim;                         ///< the file's text, unchanged

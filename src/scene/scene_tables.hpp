@@ -23,6 +23,7 @@ const schema::Table& gravity_table();
 const schema::Table& body_table();
 const schema::Table& boundary_table(Geometry geometry);
 const schema::Table& contact_table();
+const schema::Table& probe_table();
 const schema::Table& material_table();
 
 /// Names that `output.fields` admits.

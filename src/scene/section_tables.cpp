@@ -30,6 +30,13 @@ Field<Scene> contact_row() {
   return row;
 }
 
+std::vector<std::string> event_names() {
+  std::vector<std::string> names;
+  for (std::size_t kind = 0; kind < event_kinds; ++kind)
+    names.emplace_back(event_name(static_cast<EventKind>(kind)));
+  return names;
+}
+
 Table make_scene_table(Geometry geometry) {
   return table_of<Scene>(
       "The file", "Tables of the document.",
@@ -44,6 +51,7 @@ Table make_scene_table(Geometry geometry) {
        {"body", &Scene::bodies, body_table(), "the bodies, in order", required},
        {"boundary", &Scene::boundaries, boundary_table(geometry), "grid nodes that are held or driven"},
        contact_row(),
+       {"probe", &Scene::probes, probe_table(), "material points whose history goes to `probes.csv`"},
        {"gravity", gravity_table(), "body force; absent: none"},
        Field<Scene>::named("material", &Scene::materials, material_table(), "the materials", required)});
 }
@@ -161,7 +169,11 @@ const Table& output_table() {
        {"fields", &O::fields, output_fields(),
         "particle fields written; absent: all that the scene's models have"},
        {"checkpoint_every", &O::checkpoint_every, "s", intervals::positive,
-        "time between checkpoints; absent: none but on a signal"}});
+        "time between checkpoints; absent: none but on a signal"},
+       {"history_every", &O::history_every, "s", intervals::positive,
+        "time between the rows of histories (`bodies.csv`, ...), each at the first step that ends then or "
+        "later; absent: at every output"},
+       {"events", &O::events, event_names(), "kinds of events written into `events.csv`; absent: all"}});
   return table;
 }
 

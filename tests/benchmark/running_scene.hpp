@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/energy_ledger.hpp"
-#include "analysis/failure.hpp"
+#include "observe/energy_ledger.hpp"
+#include "observe/failure.hpp"
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
@@ -42,8 +42,8 @@ class RunningScene final : private StepObserver {
 
  private:
   bool step_done(System& stepped, double step) override {
-    ledger_.book(stepped);
-    failure_.observe(stepped, step);
+    ledger_.step(stepped, 0.0);
+    failure_.step(stepped, step);
     return --left_ > 0;
   }
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <memory>
 
-#include "analysis/energy_ledger.hpp"
-#include "analysis/failure.hpp"
 #include "app/demands.hpp"
 #include "app/warnings.hpp"
 #include "app/watchdog.hpp"
 #include "mpm/stress.hpp"
+#include "observe/energy_ledger.hpp"
+#include "observe/failure.hpp"
 #include "output/particle_fields.hpp"
 #include "promises.hpp"
 #include "scene/build_system.hpp"
@@ -51,8 +51,8 @@ class FewSteps final : public StepObserver {
       : ledger_(system), failure_(system), watchdog_(scene.integrator.max_growth, integrator) {}
 
   bool step_done(System& system, double step) override {
-    ledger_.book(system);
-    failure_.observe(system, step);
+    ledger_.step(system, 0.0);
+    failure_.step(system, step);
     if (watchdog_.look(system, ledger_, step)) return false;
     demand(is_finite(system), "what the watchdog lets pass is finite");
     return ++steps_ < most_steps;

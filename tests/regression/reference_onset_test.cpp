@@ -1,6 +1,6 @@
-#include "analysis/failure.hpp"
 #include "catch.hpp"
 #include "integrators/grid/explicit.hpp"
+#include "observe/failure.hpp"
 #include "scene/build_system.hpp"
 #include "scene/read_scene.hpp"
 #include "vitrum_source_dir.hpp"
@@ -13,7 +13,7 @@ struct Watch final : StepObserver {
   FailureAnalysis& failure;
   explicit Watch(FailureAnalysis& f) : failure(f) {}
   bool step_done(System& system, double step) override {
-    failure.observe(system, step);
+    failure.step(system, step);
     return true;
   }
 };

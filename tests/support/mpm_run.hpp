@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "analysis/energy_ledger.hpp"
 #include "mpm/computation_error.hpp"
+#include "observe/energy_ledger.hpp"
 #include "scene/build_system.hpp"
 #include "scene/grid_method.hpp"
 #include "scene/read_scene.hpp"
@@ -60,7 +60,7 @@ class MpmRun final : private StepObserver {
   }
 
   bool step_done(System& stepped, double step) override {
-    ledger.book(stepped);
+    ledger.step(stepped, 0.0);
     if (watch && !watch(step)) return false;
     // A step that follows the speed of particles shrinks without end when they run away.
     if (!(ledger.growth() < 100.0)) throw ComputationError("the test's run has blown up");

@@ -63,7 +63,7 @@ inline Driven drive(const CompositeMaterial& material, const std::vector<Segment
         return d;
       }
       d.solver += report.solver;
-      for (std::size_t k = 0; k < report.event_count; ++k)
+      for (std::size_t k = 0; k < report.events.size(); ++k)
         d.events.push_back({report.events[k].kind, time + duration * report.events[k].fraction});
       d.dissipation += report.dissipation;
       d.least_dissipation = std::min(d.least_dissipation, report.dissipation.total());

@@ -91,7 +91,7 @@ TEST_CASE("the batch response without spin is the response of its points", "[mat
         expected.fracture += volume * point.dissipation.fracture;
         expected.snap_back += volume * point.dissipation.snap_back;
         stored += columns.mass[i] / 2500.0 * material->stored_energy(points[i]);
-        for (std::size_t k = 0; k < point.event_count; ++k) events.push_back({i, point.events[k]});
+        for (std::size_t k = 0; k < point.events.size(); ++k) events.push_back({i, point.events[k]});
       }
       material->respond(columns.pointers, begin, end, 1e-7, nullptr, report);
       const Columns::Tensors stress = columns.stress_of_state(*material);

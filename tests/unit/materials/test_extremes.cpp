@@ -56,7 +56,7 @@ TEST_CASE("a zero increment changes nothing", "[material][extremes]") {
         REQUIRE(report.dissipation.total() <= tolerance * d.state.dissipated);
         for (const std::string_view name : number_names)
           REQUIRE(number(s, name) == Approx(number(d.state, name)).epsilon(tolerance).margin(1e-15));
-        REQUIRE(report.event_count == 0);
+        REQUIRE(report.events.size() == 0);
       }
     }
   }

@@ -87,9 +87,9 @@ TEST_CASE("flow behind a separated plane ends on the yield surface, neither outs
         if (s.opening_n > 0.0) REQUIRE(normal_traction(s.stress, angle) > -scale);
         REQUIRE(s.plastic_strain >= before.plastic_strain);
         if (before.opening_n > 0.0 && s.opening_n == 0.0) {  // shut, by the strain or by the flow
-          REQUIRE(report.event_count > 0);
+          REQUIRE(report.events.size() > 0);
           bool closes = false;
-          for (std::size_t e = 0; e < report.event_count; ++e)
+          for (std::size_t e = 0; e < report.events.size(); ++e)
             closes = closes || report.events[e].kind == EventKind::closure;
           REQUIRE(closes);
         }

@@ -23,12 +23,13 @@ using namespace vitrum::output;
 namespace {
 
 Checkpoint sample_checkpoint() {
-  Checkpoint checkpoint{0.1 + 0.2, 123456789012345, "00ff", checkpoint_bodies(sample_bodies()), {}, {}};
-  checkpoint.numbers["energy"] = {1.0 / 3.0, -0.0,         5e-324, std::numeric_limits<double>::max(),
-                                  INFINITY,  std::nan("7")};
-  checkpoint.numbers["none"] = {};
-  checkpoint.texts["first damage"] = "plate ø";
-  checkpoint.texts["empty"] = "";
+  Checkpoint checkpoint{0.1 + 0.2, 123456789012345, "00ff", checkpoint_bodies(sample_bodies()), {}};
+  checkpoint.state.put(
+      "energy", {1.0 / 3.0, -0.0, 5e-324, std::numeric_limits<double>::max(), INFINITY, std::nan("7")});
+  checkpoint.state.put("none", std::vector<double>{});
+  checkpoint.state.put("one", 1.0);
+  checkpoint.state.put_text("first_damage", "plate ø");
+  checkpoint.state.put_text("empty", "");
   return checkpoint;
 }
 
@@ -59,9 +60,10 @@ TEST_CASE("A checkpoint restores every bit", "[output]") {
   CHECK(read.time == written.time);
   CHECK(read.step_index == written.step_index);
   CHECK(read.scene_sha256 == written.scene_sha256);
-  CHECK(read.texts == written.texts);
-  REQUIRE(read.numbers.size() == written.numbers.size());
-  for (const auto& [name, values] : written.numbers) CHECK(same_bits(read.numbers.at(name), values));
+  CHECK(read.state.all_texts() == written.state.all_texts());
+  REQUIRE(read.state.all_numbers().size() == written.state.all_numbers().size());
+  for (const auto& [name, values] : written.state.all_numbers())
+    CHECK(same_bits(read.state.numbers(name, values.size()), values));
   REQUIRE(read.bodies.size() == 2);
   CHECK(read.bodies[0].name == "plate");
   CHECK(read.bodies[0].particles.identity == std::vector<std::uint32_t>{2, 0, 1});
@@ -158,9 +160,19 @@ TEST_CASE("A checkpoint whose digest is right but whose content no run writes is
   }
 }
 
-TEST_CASE("Names that HDF5 would take for paths are refused", "[output]") {
-  const TemporaryDirectory directory;
-  Checkpoint checkpoint = sample_checkpoint();
-  checkpoint.numbers["a/b"] = {};
-  CHECK_THROWS_AS(write_checkpoint(directory.path() / "c.h5", checkpoint), std::invalid_argument);
+TEST_CASE("A state is asked for by name", "[output]") {
+  Archive archive;
+  archive.put("energy.plastic", 2.5);
+  archive.put("steps", 7.0);
+  archive.put("place", {1.0, 2.0});
+  CHECK(archive.number("energy.plastic") == 2.5);
+  CHECK(archive.count("steps") == 7);
+  CHECK(archive.numbers("place", 2)[1] == 2.0);
+  CHECK_THROWS_WITH(archive.number("energy.elastic"), contains_text("'energy.elastic' is missing"));
+  CHECK_THROWS_WITH(archive.numbers("place", 3), contains_text("holds 2 numbers, expected 3"));
+  CHECK_THROWS_WITH(archive.count("energy.plastic"), contains_text("2.5, which is no count"));
+  CHECK_THROWS_WITH(archive.text("scene"), contains_text("'scene' is missing"));
+  CHECK_THROWS_AS(archive.put("steps", 8.0), std::logic_error);
+  for (const char* name : {"a/b", "a b", "a\n", "", "."})  // paths of HDF5, and what separates names
+    CHECK_THROWS_AS(archive.put(name, 1.0), std::invalid_argument);
 }

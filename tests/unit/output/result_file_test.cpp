@@ -66,8 +66,8 @@ TEST_CASE("A result file has the documented layout", "[output]") {
   const File file = File::open_to_read(result_path(directory.path()));
   const Group& root = file.root();
   const RunHeader header = sample_header();
-  CHECK(root.names() ==
-        std::vector<std::string>{"bodies", "particles", "provenance", "scene", "series", "steps"});
+  CHECK(root.names() == std::vector<std::string>{"bodies", "events", "particles", "provenance", "scene",
+                                                 "series", "steps", "tables"});
   CHECK(root.open_group("series").names() == std::vector<std::string>{"kinetic", "step_index", "time"});
   CHECK(root.open_group("series").text_attribute("time", "unit") == "s");
   CHECK(root.open_group("steps").names() == std::vector<std::string>{"00000", "00001", "00002", "00003"});

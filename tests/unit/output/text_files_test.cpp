@@ -5,7 +5,7 @@
 
 #include "contains_text.hpp"
 #include "output/atomic_file.hpp"
-#include "output/energy_csv.hpp"
+#include "output/csv_file.hpp"
 #include "output/result_file.hpp"
 #include "output/summary.hpp"
 #include "output/xdmf.hpp"
@@ -38,27 +38,27 @@ TEST_CASE("Text is written as a whole or not at all", "[output]") {
   CHECK_THROWS_WITH(write_text_atomically(directory.path() / "taken", "x"), contains_text("cannot replace"));
 }
 
-TEST_CASE("energy.csv grows by rows that round-trip, and can be continued", "[output]") {
+TEST_CASE("A table's file grows by whole lines, and is cut back to where it is continued", "[output]") {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "energy.csv";
-  const EnergyTotals energy{10.0, 4.0, 0.1, 1.0, 2.0, 0.5, 0.25, -1.0, 1.0};
+  std::uint64_t two_rows = 0;
   {
-    EnergyCsv csv = EnergyCsv::create(path);
-    for (int row = 0; row < 3; ++row) csv.append(0.1 * row, row, energy);
-    CHECK(csv.rows() == 3);
-    CHECK_THAT(content(path), contains_text("time,step,kinetic,elastic,plastic,damage,fracture,external,"
-                                            "residual,contact,friction\n0,0,4,0.1,"));
+    CsvFile csv = CsvFile::create(path, "time,kinetic");
+    csv.append("0,4\n0.1,5\n");
+    two_rows = csv.size();
+    csv.append("0.2,6\n");
+    CHECK(content(path) == "time,kinetic\n0,4\n0.1,5\n0.2,6\n");
   }
-  std::ofstream(path, std::ios::app) << "0.3,3,4,0";  // cut off by a kill
-  CHECK_THROWS_WITH(EnergyCsv::reopen(path, 4), contains_text("holds 3 rows, fewer than the 4"));
-  EnergyCsv csv = EnergyCsv::reopen(path, 2);
-  csv.append(0.2, 7, energy);
-  const std::string text = content(path);
-  CHECK(std::count(text.begin(), text.end(), '\n') == 4);
-  CHECK(text.ends_with("\n0.2,7,4,0.1,1,2,0.5,-1,1.4000000000000004,0,0\n"));
-  std::ofstream(directory.path() / "other") << "a,b\n";
-  CHECK_THROWS_AS(EnergyCsv::reopen(directory.path() / "other", 0), FileError);
-  CHECK_THROWS_AS(EnergyCsv::create(directory.path() / "absent" / "energy.csv"), FileError);
+  std::ofstream(path, std::ios::app) << "0.3,";  // cut off by a kill
+  CHECK_THROWS_WITH(CsvFile::reopen(path, "time,kinetic", 100), contains_text("fewer than the 100"));
+  CHECK_THROWS_WITH(CsvFile::reopen(path, "time,kinetic", two_rows - 1),
+                    contains_text("no line ends at byte"));
+  CHECK_THROWS_WITH(CsvFile::reopen(path, "time,kinetic", 0), contains_text("no line ends at byte"));
+  CHECK_THROWS_WITH(CsvFile::reopen(path, "time,elastic", two_rows), contains_text("first line is not"));
+  CsvFile csv = CsvFile::reopen(path, "time,kinetic", two_rows);
+  csv.append("0.2,7\n");
+  CHECK(content(path) == "time,kinetic\n0,4\n0.1,5\n0.2,7\n");
+  CHECK_THROWS_AS(CsvFile::create(directory.path() / "absent" / "energy.csv", "a"), FileError);
 }
 
 TEST_CASE("The summary says null where nothing happened", "[output]") {

@@ -30,7 +30,7 @@ Localised stretch_to_localisation(const Onset& onset, double rate, bool all_plan
   CompositeState probe;
   glass->respond(probe, end * onset.direction, duration, report);
   double fraction = -1.0;
-  for (std::size_t i = 0; i < report.event_count; ++i)
+  for (std::size_t i = 0; i < report.events.size(); ++i)
     if (report.events[i].kind == EventKind::localisation) fraction = report.events[i].fraction;
   REQUIRE(fraction > 0.0);
   Localised result{{}, fraction * end};

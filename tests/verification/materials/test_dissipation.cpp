@@ -54,7 +54,7 @@ TEST_CASE("every composition on random paths: finite, within bounds, never negat
             REQUIRE((material->damage(s) >= 0.0 && material->damage(s) <= 1.0));
             REQUIRE(distance(s.stress, material->secant_moduli(s).stress(s.elastic_strain)) <=
                     1e-12 * norm(s.stress));
-            for (std::size_t e = 0; e < report.event_count; ++e) {
+            for (std::size_t e = 0; e < report.events.size(); ++e) {
               REQUIRE(report.events[e].fraction >= 0.0);
               REQUIRE(report.events[e].fraction <= 1.0);
               if (e > 0) REQUIRE(report.events[e].fraction >= report.events[e - 1].fraction);

@@ -1,29 +1,33 @@
 #pragma once
 #include <array>
 
-#include "analysis/failure_report.hpp"
-#include "analysis/fragments.hpp"
-#include "mpm/system.hpp"
+#include "observe/failure_report.hpp"
+#include "observe/fragments.hpp"
+#include "observe/observer.hpp"
+#include "scene/scene.hpp"
 
 namespace vitrum {
 
+struct FailedParticles {
+  std::size_t localised = 0, separated = 0;
+};
+FailedParticles failed_particles(const Body& body);
+
 /// Follows failure through a run: first events as they happen, fronts and fragments on demand.
-class FailureAnalysis {
+class FailureAnalysis final : public Observer {
  public:
+  static std::unique_ptr<Observer> make(const Scene& /*scene*/, const System& system) {
+    return std::make_unique<FailureAnalysis>(system);
+  }
   explicit FailureAnalysis(const System& system);
 
-  /// Looks at the events of the last step, which was `step` seconds long.
-  void observe(const System& system, double step);
+  void step(const System& system, double duration) override;
+  void declare(const System& system, std::vector<Quantity>& quantities) const override;
+  void save(Archive& archive) const override;
+  void restore(const Archive& archive) override;
+
   /// The report on the present state. with_fragments: also finds the connected pieces.
   FailureReport report(const System& system, bool with_fragments) const;
-
-  /// First events of one body: what a checkpoint keeps.
-  struct Memory {
-    std::optional<FirstEvent> damage, localisation, separation;
-  };
-  const std::vector<Memory>& memory() const { return memory_; }
-  /// One entry per body.
-  void restore(std::vector<Memory> memory) { memory_ = std::move(memory); }
 
  private:
   void choose_projectile(const System& system);
@@ -38,7 +42,14 @@ class FailureAnalysis {
   std::size_t direction_ = 1;             ///< component along which the projectile moves
   double sense_ = -1.0;                   ///< and its sign
   std::vector<double> damaging_density_;  ///< by body: the crack density at which damage passes its threshold
-  std::vector<Memory> memory_;            ///< by body
+
+  /// First events of one body.
+  struct Memory {
+    std::optional<FirstEvent> damage, localisation, separation;
+  };
+  struct NamedEvent;
+  static const std::array<NamedEvent, 3> named_events;
+  std::vector<Memory> memory_;  ///< by body
 };
 
 }  // namespace vitrum

@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "analysis/failure_report.hpp"
 #include "mpm/system.hpp"
+#include "observe/failure_report.hpp"
 
 namespace vitrum {
 
@@ -15,7 +15,10 @@ struct ConnectedPiece {
   std::vector<std::size_t> particles;
 };
 
-/// Connected components of the unseparated particles of every body whose material can separate, joining
+/// Connected components of the unseparated particles of one body, whose material can separate.
+std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body);
+
+/// Those of every body whose material can separate, joining
 /// particles of a body within 1.5 cells; by falling number of particles. Separated particles belong to no
 /// piece: they are where the cracks run.
 std::vector<ConnectedPiece> connected_pieces(const System& system);

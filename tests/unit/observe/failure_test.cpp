@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/failure.hpp"
-#include "analysis/fragments.hpp"
 #include "catch.hpp"
+#include "observe/failure.hpp"
+#include "observe/fragments.hpp"
 #include "support/mpm_run.hpp"
 
 using namespace vitrum;
@@ -42,7 +42,7 @@ void cut(MpmRun& run, double at, double half) {
 
 }  // namespace
 
-TEST_CASE("An intact plate is one piece; bodies that cannot separate are none", "[analysis]") {
+TEST_CASE("An intact plate is one piece; bodies that cannot separate are none", "[observe]") {
   MpmRun run(punch("plane-strain"));
   const auto pieces = connected_pieces(run.system);
   REQUIRE(pieces.size() == 1);
@@ -50,7 +50,7 @@ TEST_CASE("An intact plate is one piece; bodies that cannot separate are none", 
   CHECK(pieces[0].particles.size() == 80);
 }
 
-TEST_CASE("A crack one particle wide parts the plate; one with a bridge does not", "[analysis]") {
+TEST_CASE("A crack one particle wide parts the plate; one with a bridge does not", "[observe]") {
   MpmRun run(punch("plane-strain"));
   cut(run, -4.5, 0.1);
   auto pieces = connected_pieces(run.system);
@@ -65,7 +65,7 @@ TEST_CASE("A crack one particle wide parts the plate; one with a bridge does not
   CHECK(pieces[0].particles.size() == 77);
 }
 
-TEST_CASE("Pieces join within a cell and a half and not beyond", "[analysis]") {
+TEST_CASE("Pieces join within a cell and a half and not beyond", "[observe]") {
   for (const auto& [gap, expected] : {std::pair{0.49, std::size_t{1}}, std::pair{0.51, std::size_t{2}}}) {
     MpmRun run(punch("plane-strain"));
     for (double& x : run.particles().position[0])
@@ -74,7 +74,7 @@ TEST_CASE("Pieces join within a cell and a half and not beyond", "[analysis]") {
   }
 }
 
-TEST_CASE("A piece's mass, centre and velocity; axisymmetric masses are of the whole ring", "[analysis]") {
+TEST_CASE("A piece's mass, centre and velocity; axisymmetric masses are of the whole ring", "[observe]") {
   MpmRun run(punch("axisymmetric"));
   cut(run, 9.5, 0.1);
   for (std::size_t i = 0; i < run.particles().size; ++i)
@@ -90,7 +90,7 @@ TEST_CASE("A piece's mass, centre and velocity; axisymmetric masses are of the w
   CHECK(f[0].body == "plate");
 }
 
-TEST_CASE("First events are the earliest inside their steps, and the fronts the farthest", "[analysis]") {
+TEST_CASE("First events are the earliest inside their steps, and the fronts the farthest", "[observe]") {
   MpmRun run(punch("axisymmetric"));
   System& s = run.system;
   FailureAnalysis failure(s);
@@ -99,7 +99,7 @@ TEST_CASE("First events are the earliest inside their steps, and the fronts the 
   s.record.events = {{0, 7, {EventKind::localisation, 0.8}},
                      {0, 3, {EventKind::localisation, 0.3}},
                      {0, 5, {EventKind::yield, 0.1}}};
-  failure.observe(s, 0.5);
+  failure.step(s, 0.5);
   s.time = 1.5;
   s.record.events = {{0, 9, {EventKind::localisation, 0.0}}, {0, 9, {EventKind::separation, 0.5}}};
   variable(run, "crack_density")[12] = 0.01;
@@ -107,7 +107,7 @@ TEST_CASE("First events are the earliest inside their steps, and the fronts the 
   separate(run, 12);
   variable(run, "effective_length")[17] = 1.0;
   variable(run, "opening_n")[17] = 3e-6, variable(run, "opening_t")[17] = -4e-6;
-  failure.observe(s, 0.5);
+  failure.step(s, 0.5);
   const FailureReport r = failure.report(s, false);
   REQUIRE((r.first_localisation && r.first_separation && r.first_damage));
   CHECK(r.first_localisation->time == Approx(0.65));
@@ -125,7 +125,7 @@ TEST_CASE("First events are the earliest inside their steps, and the fronts the 
   CHECK_FALSE(r.perforated);  // not asked for
 }
 
-TEST_CASE("Perforation: the punch is through and the target's main piece has left its column", "[analysis]") {
+TEST_CASE("Perforation: the punch is through and the target's main piece has left its column", "[observe]") {
   MpmRun run(punch("plane-strain"));
   System& s = run.system;
   const FailureAnalysis failure(s);
@@ -148,7 +148,7 @@ TEST_CASE("Perforation: the punch is through and the target's main piece has lef
 
 TEST_CASE(
     "A target that the punch has left behind but whose main piece still fills the column is not perforated",
-    "[analysis]") {
+    "[observe]") {
   MpmRun run(punch("plane-strain"));
   System& s = run.system;
   const FailureAnalysis failure(s);
@@ -157,7 +157,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A punch that has passed a target of which nothing or only debris is left has perforated it",
-          "[analysis]") {
+          "[observe]") {
   MpmRun run(punch("plane-strain"));
   System& s = run.system;
   const FailureAnalysis failure(s);
@@ -176,8 +176,7 @@ TEST_CASE("A punch that has passed a target of which nothing or only debris is l
   }
 }
 
-TEST_CASE("A body that leaves the target behind from the start is no projectile, however fast",
-          "[analysis]") {
+TEST_CASE("A body that leaves the target behind from the start is no projectile, however fast", "[observe]") {
   MpmRun run(punch("plane-strain"));
   for (double& v : run.system.bodies[1].particles.velocity[1]) v = std::abs(v);
   const FailureAnalysis failure(run.system);
@@ -186,7 +185,7 @@ TEST_CASE("A body that leaves the target behind from the start is no projectile,
   CHECK_FALSE(failure.report(run.system, true).perforated.has_value());
 }
 
-TEST_CASE("A scene without projectile or target has no answer to perforation", "[analysis]") {
+TEST_CASE("A scene without projectile or target has no answer to perforation", "[observe]") {
   MpmScene scene;
   scene.tables = body("plate", box({0.0, 0.0}, {4.0, 4.0})) + models;
   MpmRun run(scene);

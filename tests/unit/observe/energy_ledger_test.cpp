@@ -1,8 +1,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/energy_ledger.hpp"
 #include "catch.hpp"
+#include "observe/energy_ledger.hpp"
 #include "support/mpm_run.hpp"
 #include "support/random_states.hpp"
 
@@ -20,7 +20,7 @@ MpmScene stressed(const char* geometry, const std::string& more) {
 
 }  // namespace
 
-TEST_CASE("The ledger opens with the kinetic and elastic energy of the scene", "[analysis]") {
+TEST_CASE("The ledger opens with the kinetic and elastic energy of the scene", "[observe]") {
   MpmRun run(stressed("plane-strain", "velocity = [3.0, 4.0]\nstress = [1e-3, 0.0, 0.0, 2e-3]"));
   // s:s/2E form: (1 + nu)/E s:s - nu/E tr^2, halved; the reference volume is 8.
   const double nu = unit_poisson, E = unit_young, squared = 1e-6 + 2.0 * 4e-6;
@@ -32,7 +32,7 @@ TEST_CASE("The ledger opens with the kinetic and elastic energy of the scene", "
   CHECK(run.energy().residual() == 0.0);
 }
 
-TEST_CASE("Axisymmetric energies are per radian", "[analysis]") {
+TEST_CASE("Axisymmetric energies are per radian", "[observe]") {
   MpmRun run(stressed("axisymmetric", "velocity = [0.0, 1.0]"));
   CHECK(run.energy().kinetic == Approx(0.5 * 0.5 * 16.0 * 2.0));  // r^2/2 x height per radian
   const EnergyTotals whole = scaled(run.energy(), 2.0);
@@ -41,7 +41,7 @@ TEST_CASE("Axisymmetric energies are per radian", "[analysis]") {
   CHECK(whole.max_growth == run.energy().max_growth);
 }
 
-TEST_CASE("The ledger books what a step's record says", "[analysis]") {
+TEST_CASE("The ledger books what a step's record says", "[observe]") {
   MpmRun run(stressed("plane-strain", "velocity = [1.0, 0.0]"));
   System& s = run.system;
   EnergyLedger ledger(s);
@@ -49,8 +49,8 @@ TEST_CASE("The ledger books what a step's record says", "[analysis]") {
   s.record.kinetic = 0.5 * initial, s.record.elastic = 0.7 * initial;
   s.record.dissipated = {1.0, 2.0, 3.0, 0.5};
   s.record.external_work = 4.0;
-  ledger.book(s);
-  ledger.book(s);
+  ledger.step(s, 0.0);
+  ledger.step(s, 0.0);
   const EnergyTotals& t = ledger.totals();
   CHECK(t.plastic == 2.0);
   CHECK(t.damage == 4.0);
@@ -63,27 +63,27 @@ TEST_CASE("The ledger books what a step's record says", "[analysis]") {
   CHECK(t.relative_residual() == Approx(t.residual() / std::max(initial, 8.0)));
   // Snap-back is part of fracture: not subtracted twice. Work taken out does not excuse growth.
   s.record.external_work = -100.0;
-  ledger.book(s);
+  ledger.step(s, 0.0);
   CHECK(ledger.growth() == Approx(1.2));
 }
 
-TEST_CASE("A scene at rest has growth 1, and nothing hides a value that is not finite", "[analysis]") {
+TEST_CASE("A scene at rest has growth 1, and nothing hides a value that is not finite", "[observe]") {
   MpmRun run(stressed("plane-strain", ""));
   System& s = run.system;
   EnergyLedger ledger(s);
   CHECK(ledger.growth() == 1.0);
   CHECK(ledger.totals().relative_residual() == 0.0);
   s.record.kinetic = std::numeric_limits<double>::quiet_NaN();
-  ledger.book(s);
+  ledger.step(s, 0.0);
   CHECK_FALSE(ledger.growth() <= 1.5);
   System nothing;
   EnergyLedger other(nothing, EnergyTotals{});
   s.record.kinetic = std::numeric_limits<double>::infinity();
-  other.book(s);
+  other.step(s, 0.0);
   CHECK_FALSE(other.growth() <= 1.5);
 }
 
-TEST_CASE("Work that is taken back stays the scale of the residual", "[analysis]") {
+TEST_CASE("Work that is taken back stays the scale of the residual", "[observe]") {
   MpmRun run(stressed("plane-strain", ""));
   System& s = run.system;
   EnergyLedger ledger(s);
@@ -91,16 +91,16 @@ TEST_CASE("Work that is taken back stays the scale of the residual", "[analysis]
     s.record.kinetic = 0.0, s.record.elastic = 0.0;
     s.record.dissipated = {};
     s.record.external_work = work;
-    ledger.book(s);
+    ledger.step(s, 0.0);
   }
   s.record.kinetic = 0.01;
   s.record.external_work = 0.0;
-  ledger.book(s);
+  ledger.step(s, 0.0);
   CHECK(ledger.totals().relative_residual() == Approx(-0.01 / 8.0));
   CHECK(judge(ledger.totals(), 0.0) == EnergyAccount::closes);
 }
 
-TEST_CASE("What an energy account says of its run does not depend on the unit of energy", "[analysis]") {
+TEST_CASE("What an energy account says of its run does not depend on the unit of energy", "[observe]") {
   Random random(3);
   int counts[3] = {};
   for (int i = 0; i < 2000; ++i) {

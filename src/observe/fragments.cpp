@@ -1,4 +1,4 @@
-#include "analysis/fragments.hpp"
+#include "observe/fragments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +50,8 @@ std::vector<Placed> placed(const Particles& p, const std::vector<double>& decohe
   return order;
 }
 
+}  // namespace
+
 std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_index) {
   const Particles& p = system.bodies[body_index].particles;
   const std::vector<double>& decohesion = system.bodies[body_index].column("decohesion");
@@ -79,8 +81,6 @@ std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_ind
   }
   return pieces;
 }
-
-}  // namespace
 
 bool separates(const Body& body) {
   return body.material->column("decohesion").has_value();

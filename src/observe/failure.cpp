@@ -1,12 +1,15 @@
-#include "analysis/failure.hpp"
+#include "observe/failure.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
-#include "analysis/fragments.hpp"
 #include "materials/root.hpp"
+#include "observe/fragments.hpp"
 
 namespace vitrum {
 namespace {
@@ -42,18 +45,33 @@ std::array<double, 2> mean_velocity(const Body& body) {
   return {momentum[0] / mass, momentum[1] / mass};
 }
 
+}  // namespace
+
+FailedParticles failed_particles(const Body& body) {
+  FailedParticles failed;
+  const auto &length = body.column("effective_length"), &decohesion = body.column("decohesion");
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    if (!(length[i] > 0.0)) continue;
+    ++failed.localised;
+    if (decohesion[i] >= 1.0) ++failed.separated;
+  }
+  return failed;
+}
+
+namespace {
+
 /// Counts, fronts and openings of a body; `first_*` are left to the caller.
 FailureMeasures measure(const Body& body) {
   FailureMeasures m;
+  const FailedParticles failed = failed_particles(body);
+  m.localised = failed.localised, m.separated = failed.separated;
   const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
   const Particles& p = body.particles;
-  const auto &length = body.column("effective_length"), &decohesion = body.column("decohesion");
+  const auto& length = body.column("effective_length");
   const auto &opening_n = body.column("opening_n"), &opening_t = body.column("opening_t");
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
     const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
-    ++m.localised;
-    if (decohesion[i] >= 1.0) ++m.separated;
     raise(m.localised_radius_max, radius);
     if (!m.max_opening || opening > *m.max_opening) m.max_opening = opening, m.max_opening_radius = radius;
   }
@@ -119,14 +137,14 @@ void FailureAnalysis::choose_projectile(const System& system) {
   }
 }
 
-void FailureAnalysis::observe(const System& system, double step) {
+void FailureAnalysis::step(const System& system, double duration) {
   for (const BodyEvent& e : system.record.events) {
     Memory& memory = memory_[e.body];
     std::optional<FirstEvent>* first = e.event.kind == EventKind::localisation ? &memory.localisation
                                        : e.event.kind == EventKind::separation ? &memory.separation
                                                                                : nullptr;
     if (first == nullptr) continue;
-    const double time = system.time - step * (1.0 - e.event.fraction);
+    const double time = system.time - duration * (1.0 - e.event.fraction);
     if (*first && (*first)->time <= time) continue;
     const Particles& p = system.bodies[e.body].particles;
     *first =
@@ -143,6 +161,54 @@ void FailureAnalysis::observe(const System& system, double step) {
     memory_[n].damage =
         FirstEvent{system.time, body.particles.position[0][i], body.particles.position[1][i], body.name};
   }
+}
+
+struct FailureAnalysis::NamedEvent {
+  const char* name;
+  std::optional<FirstEvent> Memory::*member;
+};
+const std::array<FailureAnalysis::NamedEvent, 3> FailureAnalysis::named_events{
+    {{"damage", &Memory::damage},
+     {"localisation", &Memory::localisation},
+     {"separation", &Memory::separation}}};
+
+namespace {
+
+std::string name_of(const char* event, std::size_t body) {
+  return fmt::format("failure.first_{}.{}", event, body);
+}
+
+}  // namespace
+
+void FailureAnalysis::save(Archive& archive) const {
+  for (std::size_t n = 0; n < memory_.size(); ++n)
+    for (const auto& [name, member] : named_events)
+      if (const std::optional<FirstEvent>& first = memory_[n].*member) {
+        archive.put(name_of(name, n), {first->time, first->r, first->z});
+        archive.put_text(name_of(name, n), first->body);
+      }
+}
+
+void FailureAnalysis::restore(const Archive& archive) {
+  for (std::size_t n = 0; n < memory_.size(); ++n)
+    for (const auto& [name, member] : named_events) {
+      if (!archive.has(name_of(name, n))) continue;
+      const std::vector<double>& at = archive.numbers(name_of(name, n), 3);
+      memory_[n].*member = FirstEvent{at[0], at[1], at[2], archive.text(name_of(name, n))};
+    }
+}
+
+void FailureAnalysis::declare(const System& system, std::vector<Quantity>& quantities) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const FailureReport f = report(system, false);
+  const Quantity own[] = {{"localised", "1", "localised particles", static_cast<double>(f.localised)},
+                          {"separated", "1", "separated particles", static_cast<double>(f.separated)},
+                          {"localised_radius_max", "m", "largest r (|x|) of a localised particle; NaN: none",
+                           f.localised_radius_max.value_or(none)},
+                          {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none",
+                           f.damage_front_radius.value_or(none)},
+                          {"max_opening", "m", "largest opening; NaN: none", f.max_opening.value_or(none)}};
+  quantities.insert(quantities.end(), std::begin(own), std::end(own));
 }
 
 FailureReport FailureAnalysis::report(const System& system, bool with_fragments) const {

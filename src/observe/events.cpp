@@ -1,0 +1,38 @@
+#include "observe/events.hpp"
+
+#include <algorithm>
+
+namespace vitrum {
+namespace {
+
+constexpr std::size_t patience = std::size_t{1} << 14;  // bytes
+
+}  // namespace
+
+std::unique_ptr<Observer> EventLog::make(const Scene& scene, const System& system) {
+  std::array<bool, event_kinds> kinds{};
+  for (std::size_t k = 0; k < event_kinds; ++k)
+    kinds[k] = !scene.output.events ||
+               std::ranges::count(*scene.output.events, event_name(static_cast<EventKind>(k))) > 0;
+  return std::make_unique<EventLog>(kinds, system.axisymmetric);
+}
+
+EventLog::EventLog(const std::array<bool, event_kinds>& kinds, bool axisymmetric)
+    : kinds_(kinds),
+      named_(std::to_array(columns)),
+      table_({table_info.name, table_info.description, named_}) {
+  if (!axisymmetric) named_[4].name = "x", named_[5].name = "y";
+  table_.patience = patience;
+}
+
+void EventLog::step(const System& system, double duration) {
+  for (const BodyEvent& e : system.record.events) {
+    if (!kinds_[static_cast<std::size_t>(e.event.kind)]) continue;
+    const Body& body = system.bodies[e.body];
+    const Particles& p = body.particles;
+    table_.row(system.time - duration * (1.0 - e.event.fraction), body.name, p.identity[e.particle],
+               event_name(e.event.kind), p.position[0][e.particle], p.position[1][e.particle]);
+  }
+}
+
+}  // namespace vitrum
