@@ -10,6 +10,7 @@
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/reactions.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -48,6 +49,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
       break;
   }
   stress.book();
+  mpm::book_reactions(system, duration);
   mpm::coast(system, duration);
   if (system.contact) system.contact->end_step(system, duration);
   ++system.step_index;

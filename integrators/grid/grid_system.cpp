@@ -23,6 +23,7 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
       tolerance_(tolerance),
       works_(mpm::has_external_work(system)),
       trial_(system, mpm::Trial::Moves::nodes),
+      reactions_(system),
       deformations_(system.bodies.size()) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
@@ -59,8 +60,9 @@ void GridSystem::begin_phase() {
                                         static_cast<double>(nodes_.size());
 }
 
-void GridSystem::start(double* y) const {
+void GridSystem::start(double* y) {
   std::fill(y, y + size(), 0.0);
+  reactions_.begin(y + size());
   std::copy(start_velocity_.begin(), start_velocity_.end(), y + nodes_.size());
 }
 
@@ -148,6 +150,7 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
   }
   if (works_) mpm::fill_field(system_, nodes_, y + n, 1.0, Field::velocity_0);
   const double power = mpm::accelerate(system_);
+  reactions_.rates(system_, rates + size());
   std::copy(y + n, y + 2 * n, rates);
   mpm::read_field(system_, nodes_, Field::acceleration_0, rates + n);
   if (works_) rates[2 * n] = power;
@@ -191,14 +194,17 @@ void GridSystem::expand(double gamma, const double* b, const double* z, double* 
 }
 
 void GridSystem::carry(double from, double to, std::vector<double>& y) {
-  y.assign(size(), 0.0);
-  if (!works_) return;
-  std::vector<double> power(size());
-  const auto at = [&](double t) {
-    rates(t, y.data(), power.data());
-    return power.back();
-  };
-  y.back() = (to - from) / 6.0 * (at(from) + 4.0 * at(0.5 * (from + to)) + at(to));
+  const std::size_t all = size() + integrals();
+  y.assign(all, 0.0);
+  start(y.data());
+  if (all == 0) return;
+  const std::vector<double> still = y;
+  std::vector<double> rate(all);
+  for (const auto& [t, weight] : {std::pair(from, 1.0), {0.5 * (from + to), 4.0}, {to, 1.0}}) {
+    rates(t, still.data(), rate.data());
+    for (std::size_t k = 0; k < all; ++k) y[k] += weight * rate[k];
+  }
+  for (double& integral : y) integral *= (to - from) / 6.0;
 }
 
 void GridSystem::commit(double t, const double* y) {
@@ -230,6 +236,7 @@ void GridSystem::commit(double t, const double* y) {
   system_.record.kinetic = start_kinetic_ + gained;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
   if (works_) system_.record.external_work += y[2 * n] - std::exchange(committed_work_, y[2 * n]);
+  reactions_.commit(system_, y + size());
   system_.record.particles_moved = false;
 }
 

@@ -8,6 +8,7 @@
 #include "integrators/sundials/ark_system.hpp"
 #include "mpm/finite_strain.hpp"
 #include "mpm/nodal_unknowns.hpp"
+#include "mpm/reactions.hpp"
 #include "mpm/stiffness.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/trial.hpp"
@@ -30,9 +31,11 @@ class GridSystem final : public sundials::ReducibleSystem {
 
   /// Starts a phase from the system's particles. y is filled by `start`.
   void begin_phase();
-  void start(double* y) const;
+  void start(double* y);
 
   std::size_t size() const override { return 2 * nodes_.size() + (works_ ? 1 : 0); }
+  /// The impulses of boundaries since the phase began.
+  std::size_t integrals() const override { return reactions_.size(); }
   bool rates(double t, const double* y, double* rates) override;
   void error_weights(double* weights) const override;
 
@@ -43,7 +46,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   void expand(double gamma, const double* b, const double* z, double* x) const override;
 
   /// Where nothing is free to move, held nodes carry all particles along: fills y, which holds at most the
-  /// external work from `from` to `to` (Simpson's rule).
+  /// external work and the impulses of boundaries from `from` to `to` (Simpson's rule).
   void carry(double from, double to, std::vector<double>& y);
   /// Makes the stress and the internal variables of y at time t the system's; fills the record of the step.
   /// Particles keep their places; the record's kinetic energy is the grid's change added to the particles' at
@@ -86,6 +89,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   double tolerance_;
   bool works_;
   mpm::Trial trial_;
+  mpm::ReactionIntegrals reactions_;
   mpm::NodalUnknowns nodes_;
   mpm::Stiffness stiffness_;
   std::vector<double> stiffness_values_;

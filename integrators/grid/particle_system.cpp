@@ -22,6 +22,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
       oscillation_limit_(oscillation_limit),
       works_(mpm::has_external_work(system)),
       trial_(system, mpm::Trial::Moves::particles),
+      reactions_(system),
       start_(system.bodies.size()),
       mirrored_(system.bodies.size()) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
@@ -55,6 +56,7 @@ void ParticleSystem::begin(double* y) {
   carried_work_ = mpm::carry_held(system_).work;
   order_parts();
   std::fill(y, y + size_, 0.0);
+  reactions_.begin(y + size_);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Particles& p = system_.bodies[n].particles;
     start_[n].position = p.position;
@@ -177,6 +179,7 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   mpm::scatter(system_, mpm::Scatter::momentum_and_force);
   mpm::project_velocities(system_);
   const double power = mpm::accelerate(system_);
+  reactions_.rates(system_, rates + size_);
   std::vector<mpm::ParticleRates> targets(system_.bodies.size());
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const auto at = [&](std::size_t array) { return rates + place(n, array); };
@@ -244,6 +247,7 @@ bool ParticleSystem::commit(double t, double* y) {
   committed_time_ = t;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
   if (works_) system_.record.external_work += y[size_ - 1] - std::exchange(committed_work_, y[size_ - 1]);
+  reactions_.commit(system_, y + size_);
   const bool replaced = reflect(y), carried = carry();
   system_.record.kinetic = kinetic_energy();
   return replaced || carried;

@@ -7,6 +7,7 @@
 #include "integrators/grid/error_scales.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/ark_system.hpp"
+#include "mpm/reactions.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/trial.hpp"
 
@@ -27,6 +28,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   ParticleSystem(System& system, const ErrorScales& scales, double tolerance, double oscillation_limit);
 
   std::size_t size() const override { return size_; }
+  /// The impulses of boundaries since `begin`.
+  std::size_t integrals() const override { return reactions_.size(); }
   bool rates(double t, const double* y, double* rates) override;
   void error_weights(double* weights) const override;
   double stable_step(double t, const double* y) override;
@@ -91,6 +94,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::vector<Part> parts_;
   std::vector<double> of_parts_;  ///< a result of each, for what ARKODE calls must not allocate
   mpm::Trial trial_;
+  mpm::ReactionIntegrals reactions_;
   struct Start {
     std::array<std::vector<double>, 2> position;  ///< at `begin`
     std::array<std::vector<double>, 4> strain;    ///< at the last commit

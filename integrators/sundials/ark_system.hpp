@@ -13,6 +13,9 @@ class ArkSystem {
   virtual ~ArkSystem() = default;
   /// Number of unknowns.
   virtual std::size_t size() const = 0;
+  /// Integrals over time on which nothing depends: they stand behind the unknowns in y and in their rates,
+  /// and have no part in errors, tolerances and Newton's equations.
+  virtual std::size_t integrals() const { return 0; }
   /// False, or an exception: cannot be evaluated here; ARKODE then tries a shorter step. An exception reaches
   /// the caller of ArkSolver::step when no shorter step helps.
   virtual bool rates(double t, const double* y, double* rates) = 0;
@@ -26,8 +29,8 @@ class ArkSystem {
   /// What is done with vectors of unknowns is done in so many parts, the same for any number of threads.
   virtual std::size_t parts() const { return 1; }
   using RangeTask = void (*)(void* context, std::size_t part, std::size_t begin, std::size_t end);
-  /// Calls task(context, part, begin, end) for ranges of unknowns that together are all of them; those of a
-  /// part one after the other, always in the same order, on one thread.
+  /// Calls task(context, part, begin, end) for ranges of unknowns (not of integrals) that together are all of
+  /// them; those of a part one after the other, always in the same order, on one thread.
   virtual void for_ranges(RangeTask task, void* context) const { task(context, 0, 0, size()); }
   /// The same for f(part, begin, end).
   template <class F>

@@ -74,6 +74,7 @@ void ReducedSolver::solve(const double* b, double* x) {
   else
     for (std::size_t j = 0; j < diagonal_.size(); ++j) c[j] = diagonal_[j] > 0.0 ? c[j] / diagonal_[j] : 0.0;
   system_.expand(gamma_, b, c, x);
+  std::copy_n(b + system_.size(), system_.integrals(), x + system_.size());  // depend on all, nothing on them
   last_solution_.assign(x, x + system_.size());
 }
 

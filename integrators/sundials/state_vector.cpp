@@ -25,7 +25,9 @@ const ArkSystem& system_of(N_Vector v) {
 /// Calls f(part, begin, end) for ranges that make up the vector, on several threads.
 template <class F>
 void for_ranges(N_Vector v, F&& f) {
-  system_of(v).for_each_range(f);
+  const ArkSystem& system = system_of(v);
+  system.for_each_range(f);
+  if (system.integrals() > 0) f(0, system.size(), system.size() + system.integrals());
 }
 
 /// z = a x + b y. All may be the same vector.
@@ -117,7 +119,7 @@ sunrealtype weighted_norm(N_Vector values, N_Vector weights) {
   const std::size_t parts = system_of(values).parts();
   double* sums = sums_of_parts.data();
   std::fill_n(sums, parts, 0.0);
-  for_ranges(values, [=](std::size_t part, std::size_t begin, std::size_t end) {
+  system_of(values).for_each_range([=](std::size_t part, std::size_t begin, std::size_t end) {
     sums[part] += weighted_squares(x, w, begin, end);
   });
   const double sum = std::accumulate(sums, sums + parts, 0.0);
@@ -143,6 +145,16 @@ N_Vector of_system(N_Vector v, const ArkSystem* system) {
   }
   v->content = content;
   static_cast<Content*>(content)->system = system;
+  // Integrals lie behind the length that SUNDIALS knows, which norms and products go by.
+  if (double*& data = static_cast<Content*>(content)->serial.data;
+      data != nullptr && system->integrals() > 0) {
+    void* longer = std::realloc(data, (system->size() + system->integrals()) * sizeof(double));
+    if (longer == nullptr) {
+      N_VDestroy_Serial(v);
+      return nullptr;
+    }
+    data = static_cast<double*>(longer);
+  }
   v->ops->nvclone = clone;
   v->ops->nvcloneempty = clone_empty;
   v->ops->nvlinearsum = linear_sum;

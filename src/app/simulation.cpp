@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <numbers>
 
@@ -134,6 +135,7 @@ std::string Simulation::keep_failed_point(const PointFailure& failure) {
 bool Simulation::step_done(System& system, double step) {
   state_.last_step = step;
   observers_.step(system, step);
+  std::ranges::fill(system.record.impulses, 0.0);
   failed_ = watchdog_.look(system, ledger_, step);
   if (failed_) return false;
   try {

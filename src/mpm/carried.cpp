@@ -1,14 +1,16 @@
 #include "mpm/carried.hpp"
 
+#include "mpm/reactions.hpp"
 #include "mpm/stencil.hpp"
 
 namespace vitrum::mpm {
 namespace {
 
-/// What a node's velocity component is held at.
+/// What a node's velocity component is held at, and by which boundary.
 struct Held {
   bool held;
   double velocity;  ///< m/s
+  std::int16_t by;
 };
 
 /// One component of the nodes of a tile.
@@ -21,13 +23,14 @@ class HeldNodes {
         [&](std::size_t n, Held& node) {
           const std::int16_t by = grid.constraint(component, n);
           node = {by != Constraint::free,
-                  by >= 0 ? grid.boundaries()[static_cast<std::size_t>(by)].velocity[component] : 0.0};
+                  by >= 0 ? grid.boundaries()[static_cast<std::size_t>(by)].velocity[component] : 0.0, by};
         },
         nodes_);
     const std::span<const Image> images = grid.images(tile);
     for (std::size_t k = images.size(); k-- > 0;) {
       const Held& of = nodes_[images[k].node];
-      nodes_[images[k].entry] = {of.held, images[k].component == component ? -of.velocity : of.velocity};
+      nodes_[images[k].entry] = {of.held, images[k].component == component ? -of.velocity : of.velocity,
+                                 of.by};
     }
   }
   const Held& operator[](std::size_t entry) const { return nodes_[entry]; }
@@ -55,8 +58,20 @@ double carried_velocity(const Stencils<kind>& at, std::size_t k, const HeldNodes
   return same ? first : sum;  // sum N is 1 but for rounding, which would change at every step
 }
 
+/// Gives the boundaries that hold the k-th particle's nodes their parts of an impulse on it.
 template <ShapeKind kind>
-Carried carry_tile(System& system, std::size_t tile) {
+void share_impulse(const Stencils<kind>& at, std::size_t k, const HeldNodes<kind>& nodes, double impulse,
+                   std::size_t component, double* impulses) {
+  for (std::size_t b = 0; b < at.count; ++b)
+    for (std::size_t a = 0; a < at.count; ++a)
+      if (const std::int16_t by = nodes[at.entry(k) + b * tile_columns + a].by; by >= 0)
+        impulses[2 * static_cast<std::size_t>(by) + component] +=
+            at.value(0, a, k) * at.value(1, b, k) * impulse;
+}
+
+/// impulses: by boundary, added to.
+template <ShapeKind kind>
+Carried carry_tile(System& system, std::size_t tile, double* impulses) {
   const Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const HeldNodes<kind> held[2] = {{grid, tile, 0}, {grid, tile, 1}};
@@ -77,6 +92,7 @@ Carried carry_tile(System& system, std::size_t tile) {
           if (velocity == old) continue;
           carried.changed = true;
           carried.work += 0.5 * p.mass[i] * (velocity * velocity - old * old);
+          share_impulse<kind>(at, k, held[c], p.mass[i] * (velocity - old), c, impulses);
         }
     });
   }
@@ -90,14 +106,19 @@ Carried carry_held(System& system) {
   bool some = false;
   for (std::size_t tile = 0; tile < tiles && !some; ++tile) some = system.grid.may_carry(tile);
   if (!some) return {};
+  const std::size_t count = reaction_count(system);
   std::vector<Carried> parts(tiles);
+  std::vector<double> impulses(tiles * count);
   dispatch(system.grid, [&]<ShapeKind kind, bool>() {
     system.team->for_each_chunk(tiles, [&](std::size_t tile) {
-      if (system.grid.may_carry(tile)) parts[tile] = carry_tile<kind>(system, tile);
+      if (system.grid.may_carry(tile))
+        parts[tile] = carry_tile<kind>(system, tile, impulses.data() + tile * count);
     });
   });
   Carried all;
   for (const Carried& part : parts) all.work += part.work, all.changed = all.changed || part.changed;
+  for (std::size_t k = 0; all.changed && k < impulses.size(); ++k)
+    system.record.impulses[k % count] += impulses[k];
   return all;
 }
 

@@ -110,7 +110,7 @@ void Grid::list_images() {
     const Block& block = blocks_[static_cast<std::size_t>(tile_block_[tile])];
     if (axisymmetric_ && block.column == 0)
       for (int row = -1; row < tile_rows - 1; ++row)
-        images_.push_back({tile_entry(-1, row), tile_entry(1, row), 0});
+        images_.push_back({tile_entry(-1, row), tile_entry(1, row), 0, Constraint::axis});
     for (std::size_t component = 0; component < 2; ++component)
       for (std::size_t k = 0; k < boundaries_.size(); ++k)
         if (boundaries_[k].mirrors && boundaries_[k].fixed[component]) {
@@ -119,6 +119,8 @@ void Grid::list_images() {
         }
     first_image_[tile + 1] = images_.size();
   }
+  mirrors_ = std::ranges::any_of(images_, [](const Image& image) { return image.by >= 0; });
+  image_sums_.assign(mirrors_ ? images_.size() : 0, {});
 }
 
 /// Lists the images beyond the last (side 1) or the first (side -1) row of a plane of symmetry. They are free
@@ -147,7 +149,7 @@ void Grid::list_images_of(const Block& block, std::size_t boundary, std::size_t 
     if (held(component, on) == by && held(component, behind) == by &&
         held(1 - component, behind) == held(1 - component, before))
       images_.push_back(
-          {entry(plane - side, t), entry(plane + side, t), static_cast<std::uint8_t>(component)});
+          {entry(plane - side, t), entry(plane + side, t), static_cast<std::uint8_t>(component), by});
   }
 }
 

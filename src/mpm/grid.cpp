@@ -140,8 +140,10 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
   for (const Block& b : blocks_) lines.push_back(by_row ? b.row : b.column);
   strips_.set(lines, tile_block_.size());
   mark_constraints();
-  for (std::size_t field = 0; field < (keeps_sums_ ? field_count : moved_field_count); ++field)
-    fields_[field].resize(blocks_.size() * block_nodes);
+  for (std::size_t field = 0; field < field_count; ++field)
+    if (keeps_sums_ || field < moved_field_count ||
+        (!boundaries_.empty() && field >= static_cast<std::size_t>(Field::force_0)))
+      fields_[field].resize(blocks_.size() * block_nodes);
 }
 
 void Grid::keep_sums() {

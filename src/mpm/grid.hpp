@@ -46,9 +46,9 @@ enum class Field : std::size_t {
   velocity_1,
   new_velocity_0,  ///< after
   new_velocity_1,
-  momentum_0,  ///< these four only where someone asks for sums (Grid::keep_sums)
+  momentum_0,  ///< these two only where someone asks for sums (Grid::keep_sums)
   momentum_1,
-  force_0,
+  force_0,  ///< and these, also where boundaries push
   force_1,
   // Rates have no new velocities: accelerations (m/s^2) take their place.
   acceleration_0 = new_velocity_0,
@@ -115,6 +115,13 @@ struct Constraint {
 struct Image {
   std::uint8_t entry, node;  ///< entries of the tile
   std::uint8_t component;    ///< across the plane
+  std::int16_t by;           ///< the boundary that is the plane, or Constraint::axis
+};
+
+/// What an image had collected when it was folded onto its node: kg, and N across the plane (per radian or
+/// per metre).
+struct ImageSums {
+  double mass, force;
 };
 
 /// Unbounded sparse grid: only blocks that particles touch exist. Also knows which particles are in which
@@ -195,6 +202,18 @@ class Grid {
   /// To be folded in this order, and read in the opposite one.
   std::span<const Image> images(std::size_t tile) const {
     return {images_.data() + first_image_[tile], images_.data() + first_image_[tile + 1]};
+  }
+  /// What the images of a tile collected last; empty where no boundary mirrors.
+  std::span<ImageSums> image_sums(std::size_t tile) {
+    return mirrors_ ? std::span(image_sums_).subspan(first_image_[tile], images(tile).size())
+                    : std::span<ImageSums>();
+  }
+  std::span<const ImageSums> image_sums(std::size_t tile) const {
+    return const_cast<Grid*>(this)->image_sums(tile);
+  }
+  /// Whether boundaries may push at nodes of a block, so that their forces are asked for (reactions.hpp).
+  bool keeps_forces(std::size_t block) const {
+    return !boundaries_.empty() && (blocks_[block].constrained || mirrors_);
   }
   /// Whether some cell of the tile's has no node that is free in some component.
   bool may_carry(std::size_t tile) const { return carries_[tile]; }
@@ -297,6 +316,8 @@ class Grid {
   std::array<std::vector<std::int16_t>, 2> constraints_;
   std::vector<Image> images_;             // by tile
   std::vector<std::size_t> first_image_;  // of each tile
+  bool mirrors_ = false;                  // some image is that of a boundary
+  std::vector<ImageSums> image_sums_;     // by image
   std::vector<bool> carries_;             // by tile
   bool keeps_sums_ = false;
   std::vector<TileData> tile_data_;

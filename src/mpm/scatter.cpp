@@ -162,8 +162,16 @@ void scatter_tile(System& system, std::size_t tile) {
     });
   }
   if constexpr (kind != ShapeKind::linear) {
-    fold_images(grid.images(tile), vectors);
-    if constexpr (P::momentum) fold_images(grid.images(tile), masses);
+    const std::span<const Image> images = grid.images(tile);
+    const std::span<ImageSums> sums = grid.image_sums(tile);
+    fold_images(images, vectors, [&](std::size_t n, const Pack<P::width>& from) {
+      if constexpr (P::force)
+        if (!sums.empty()) sums[n].force = from[P::width - 2 + images[n].component];
+    });
+    if constexpr (P::momentum)
+      fold_images(images, masses, [&](std::size_t n, double from) {
+        if (!sums.empty()) sums[n].mass = from;
+      });
   }
 }
 
@@ -206,6 +214,10 @@ void move_block(const Pass& pass, std::size_t block) {
   if constexpr (P::force) {
     const BlockVector force{sums[P::width - 2], sums[P::width - 1]};
     accelerate_block(grid, block, force, system.gravity, pass.duration);
+    if (grid.keeps_forces(block))
+      for (std::size_t c = 0; c < 2; ++c)
+        std::copy_n(force[c], block_nodes,
+                    grid.field(c == 0 ? Field::force_0 : Field::force_1) + block * block_nodes);
     if (pass.parts != nullptr)
       (*pass.parts)[block] = external_power(system, block, force, Field::velocity_0, Field::new_velocity_0);
   }

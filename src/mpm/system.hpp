@@ -28,7 +28,10 @@ struct StepRecord {
   double friction = 0.0;          ///< dissipated between bodies in the step
   double external_work = 0.0;     ///< of gravity and prescribed velocities in the step
   std::vector<BodyEvent> events;  ///< in order of time, body and identity
-  bool particles_moved = true;    ///< they stand where the time is: not so within a Lagrangian phase
+  /// Impulse of each boundary on the bodies, two components each, since the record was last read: who reads
+  /// sets it back. N s (per radian or per metre).
+  std::vector<double> impulses;
+  bool particles_moved = true;  ///< they stand where the time is: not so within a Lagrangian phase
 };
 
 namespace mpm {

@@ -107,18 +107,30 @@ inline double parity(std::size_t place, std::uint8_t component) {
 }
 
 /// A plane of symmetry (the axis, or a boundary that mirrors): the image of a particle touches a node as the
-/// particle touches the node's image. Folds what images have collected onto their nodes.
-template <class Vectors>
-inline void fold_images(std::span<const Image> images, Vectors* tile) {
-  for (const Image& image : images) {
+/// particle touches the node's image. Folds what images have collected onto their nodes; note(n, from) sees
+/// what the n-th of them had.
+template <class Vectors, class Note>
+inline void fold_images(std::span<const Image> images, Vectors* tile, Note&& note) {
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    const Image& image = images[n];
     Vectors &node = tile[image.node], &from = tile[image.entry];
+    note(n, from);
     for (std::size_t k = 0; k < sizeof(Vectors) / sizeof(double); ++k)
       node[k] += parity(k, image.component) * from[k];
     from = Vectors{};
   }
 }
-inline void fold_images(std::span<const Image> images, double* masses) {
-  for (const Image& image : images) masses[image.node] += masses[image.entry], masses[image.entry] = 0.0;
+template <class Vectors>
+inline void fold_images(std::span<const Image> images, Vectors* tile) {
+  fold_images(images, tile, [](std::size_t, const Vectors&) {});
+}
+template <class Note>
+inline void fold_images(std::span<const Image> images, double* masses, Note&& note) {
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    const Image& image = images[n];
+    note(n, masses[image.entry]);
+    masses[image.node] += masses[image.entry], masses[image.entry] = 0.0;
+  }
 }
 /// Fills the images of a tile that is to be read from.
 template <class Vectors>

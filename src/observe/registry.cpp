@@ -5,6 +5,7 @@
 #include "observe/events.hpp"
 #include "observe/failure.hpp"
 #include "observe/probes.hpp"
+#include "observe/reactions.hpp"
 
 namespace vitrum {
 namespace {
@@ -18,8 +19,12 @@ constexpr ObserverKind kind() {
 }
 
 constexpr ObserverKind kinds[] = {
-    kind<EnergyLedger>(), kind<FailureAnalysis>(), kind<EventLog>(),
-    kind<BodyHistory>(),  kind<ProbeHistory>(),
+    kind<EnergyLedger>(),     // energy.csv
+    kind<FailureAnalysis>(),  // the summary and the series
+    kind<EventLog>(),         // events.csv
+    kind<BodyHistory>(),      // bodies.csv
+    kind<ReactionHistory>(),  // reactions.csv
+    kind<ProbeHistory>(),     // probes.csv
 };
 
 }  // namespace

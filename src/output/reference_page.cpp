@@ -113,7 +113,23 @@ constexpr std::string_view before_tables = R"(
 
 CSV: the first line names the columns, numbers round-trip, a cell without a value is empty, names that hold a comma or a quote are quoted (RFC 4180).
 `energy.csv` and the histories never change the steps of a run: a row stands at the first step that ends when it is due or later; in
-`arkode-implicit` that of a history at the first end of a Lagrangian phase, where particles move.
+`arkode-implicit` that of a history at the first end of a Lagrangian phase, where particles move. Events stand in order of time, of body and of
+particle, the same for any number of threads; a step locates them within itself (in `arkode-implicit` their place is that of the phase's start).
+`output.events` chooses kinds: a kind that fires often (yield, closure) makes most of a long run's file (80 bytes an event).
+
+What happened first, a front, the force on a boundary and the stress at a gauge are queries:
+
+    import csv
+    def read(name): return list(csv.DictReader(open(f"out/{name}.csv", newline="")))
+    first = next(e for e in read("events") if e["kind"] == "localisation")
+    front = [(e["time"], e["r"]) for e in read("events") if e["kind"] == "damage" and e["body"] == "plate"]
+    rim = [(float(r["time"]), float(r["impulse_r"])) for r in read("reactions") if r["boundary"] == "rim"]
+    force = [(t1, (p1 - p0) / (t1 - t0)) for (t0, p0), (t1, p1) in zip(rim, rim[1:])]    # mean over each interval, N
+    gauge = [(p["time"], p["stress_rr"]) for p in read("probes") if p["probe"] == "back"]
+
+Impulses are exact: along z (in plane strain along x and y) their sum over boundaries, with gravity's, is the change of the bodies' momentum to rounding, in every
+integrator. A radial sum over a ring is no component of a vector: `impulse_r` is the integral of the radial force around the ring, which hoop stress and the
+axis balance as well.
 )";
 
 constexpr std::string_view after_variables =

@@ -140,6 +140,7 @@ System build_system(const Scene& scene, int threads) {
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
   system.grid =
       mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
+  system.record.impulses.resize(2 * system.grid.boundaries().size());
   system.local = make_local_integrator(scene.constitutive);
   system.team = make_team(threads > 0 ? threads : thread_count(scene, system, available_threads()));
   build_contact(scene, system);
