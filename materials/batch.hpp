@@ -132,6 +132,8 @@ class Batch final : public Material {
 
  private:
   static constexpr bool runs = RunsElastically<Law>;
+  /// Whether Hooke's law of the state is its elastic tangent.
+  static constexpr bool hookean = requires(const Law& law, const State& s) { law.secant_moduli(s); };
   static constexpr bool dissipative = [] {
     if constexpr (requires { Law::dissipates; })
       return Law::dissipates;
@@ -185,14 +187,17 @@ class Batch final : public Material {
     s.elastic_strain = {p.start_strain[0][i], p.start_strain[1][i], p.start_strain[2][i],
                         p.start_strain[3][i]};
     std::size_t k = 0;
-    law_.members(s, [&](auto& member) { fill(member, [&] { return p.start_variables[k++][i]; }); });
+    law_.members(s, [&](auto& member) VITRUM_INLINE_LAMBDA {
+      fill(member, [&]() VITRUM_INLINE_LAMBDA { return p.start_variables[k++][i]; });
+    });
     if constexpr (dissipative) s.dissipated = p.start_variables[k][i];
   }
   void store_variables(const State& s, const ParticleColumns& p, std::size_t i) const {
     if (p.variables.empty()) return;
     std::size_t k = 0;
-    law_.members(s,
-                 [&](const auto& member) { hand_over(member, [&](double v) { p.variables[k++][i] = v; }); });
+    law_.members(s, [&](const auto& member) VITRUM_INLINE_LAMBDA {
+      hand_over(member, [&](double v) VITRUM_INLINE_LAMBDA { p.variables[k++][i] = v; });
+    });
     if constexpr (dissipative) p.variables[k][i] = s.dissipated;
   }
 
@@ -208,6 +213,8 @@ class Batch final : public Material {
 
   bool stays_elastic(const State& s, const SymmetricTensor& strain, double duration) const;
   TangentEntries tangent(const State& start, const SymmetricTensor& strain, double duration) const;
+  TangentEntries tangent_by_differences(const State& start, const SymmetricTensor& strain,
+                                        double duration) const;
   template <bool small>
   double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   void store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
@@ -299,7 +306,7 @@ double Batch<Law>::take_inelastic(const ParticleColumns& p, std::size_t i, State
   }
   const Rotation by = rotation_by(p.spin_increment[i]);
   s.elastic_strain = rotate(s.elastic_strain, by);
-  law_.members(s, [&](auto& member) { turn(member, by); });
+  law_.members(s, [&](auto& member) VITRUM_INLINE_LAMBDA { turn(member, by); });
   store_variables(s, p, i);
   const double volume = p.mass[i] / density();
   report.dissipated.plastic += volume * point.dissipation.plastic;
@@ -400,9 +407,6 @@ bool Batch<Law>::stays_elastic(const State& s, const SymmetricTensor& strain, do
 
 template <class Law>
 TangentEntries Batch<Law>::tangent(const State& start, const SymmetricTensor& strain, double duration) const {
-  constexpr bool hookean = requires {
-    law_.secant_moduli(start);
-  };
   if constexpr (hookean) {
     if (stays_elastic(start, strain, duration)) {
       State end = start;
@@ -410,6 +414,12 @@ TangentEntries Batch<Law>::tangent(const State& start, const SymmetricTensor& st
       return elastic_entries(law_.secant_moduli(end));
     }
   }
+  return tangent_by_differences(start, strain, duration);
+}
+
+template <class Law>
+TangentEntries Batch<Law>::tangent_by_differences(const State& start, const SymmetricTensor& strain,
+                                                  double duration) const {
   const auto end_after = [&](const SymmetricTensor& increment) {
     State s = start;
     PointReport report;
@@ -451,12 +461,30 @@ template <class Law>
 void Batch<Law>::tangent(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
                          TangentEntries* tangents) const {
   State s;
-  for (std::size_t i = begin; i < end; ++i) {
-    load(p, i, s);
-    s.stress = law_.stress(s);
-    const SymmetricTensor strain{p.strain_increment[0][i], p.strain_increment[1][i], p.strain_increment[2][i],
-                                 p.strain_increment[3][i]};
-    tangents[i] = tangent(s, strain, duration);
+  InelasticMarks inelastic;
+  for (std::size_t first = begin; first < end; first += elastic_run) {
+    const std::size_t last = std::min(end, first + elastic_run);
+    inelastic.fill(1.0);
+    if constexpr (runs && hookean) {
+      if constexpr (dissipative)
+        law_.mark_inelastic(p, first, last, duration, inelastic);
+      else
+        inelastic.fill(0.0);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      load(p, i, s);
+      const SymmetricTensor strain{p.strain_increment[0][i], p.strain_increment[1][i],
+                                   p.strain_increment[2][i], p.strain_increment[3][i]};
+      if constexpr (hookean) {
+        if (inelastic[i - first] == 0.0) {
+          s.elastic_strain += strain;
+          tangents[i] = elastic_entries(law_.secant_moduli(s));
+          continue;
+        }
+      }
+      s.stress = law_.stress(s);
+      tangents[i] = tangent_by_differences(s, strain, duration);
+    }
   }
 }
 

@@ -2,6 +2,9 @@
 #include "materials/law.hpp"
 #include "tensor/vector.hpp"
 
+/// For lambdas that loops over particles are made of, behind their parameters.
+#define VITRUM_INLINE_LAMBDA __attribute__((always_inline))
+
 namespace vitrum {
 
 /// What every law keeps of a point; a law's State adds its variables, each a double, a PlaneVector or a
@@ -14,38 +17,38 @@ struct LawState {
 
 /// Fills the components of a variable with what next() gives.
 template <class Next>
-void fill(double& member, Next&& next) {
+VITRUM_INLINE void fill(double& member, Next&& next) {
   member = next();
 }
 template <class Next>
-void fill(PlaneVector& member, Next&& next) {
+VITRUM_INLINE void fill(PlaneVector& member, Next&& next) {
   member.r = next(), member.z = next();
 }
 template <class Next>
-void fill(SymmetricTensor& member, Next&& next) {
+VITRUM_INLINE void fill(SymmetricTensor& member, Next&& next) {
   member.rr = next(), member.zz = next(), member.tt = next(), member.rz = next();
 }
 
 /// Hands them to take(value).
 template <class Take>
-void hand_over(double member, Take&& take) {
+VITRUM_INLINE void hand_over(double member, Take&& take) {
   take(member);
 }
 template <class Take>
-void hand_over(const PlaneVector& member, Take&& take) {
+VITRUM_INLINE void hand_over(const PlaneVector& member, Take&& take) {
   take(member.r), take(member.z);
 }
 template <class Take>
-void hand_over(const SymmetricTensor& member, Take&& take) {
+VITRUM_INLINE void hand_over(const SymmetricTensor& member, Take&& take) {
   take(member.rr), take(member.zz), take(member.tt), take(member.rz);
 }
 
 /// Turns a variable with its particle.
-inline void turn(double&, const Rotation&) {}
-inline void turn(PlaneVector& member, const Rotation& by) {
+VITRUM_INLINE void turn(double&, const Rotation&) {}
+VITRUM_INLINE void turn(PlaneVector& member, const Rotation& by) {
   member = rotate(member, by);
 }
-inline void turn(SymmetricTensor& member, const Rotation& by) {
+VITRUM_INLINE void turn(SymmetricTensor& member, const Rotation& by) {
   member = rotate(member, by);
 }
 
@@ -55,14 +58,18 @@ typename Law::State load_state(const Law& law, const PointState& point) {
   typename Law::State s;
   s.elastic_strain = point.elastic_strain, s.stress = point.stress, s.dissipated = point.dissipated;
   std::size_t k = 0;
-  law.members(s, [&](auto& member) { fill(member, [&] { return point.variables[k++]; }); });
+  law.members(s, [&](auto& member) VITRUM_INLINE_LAMBDA {
+    fill(member, [&]() VITRUM_INLINE_LAMBDA { return point.variables[k++]; });
+  });
   return s;
 }
 template <class Law>
 void store_state(const Law& law, const typename Law::State& s, PointState& point) {
   point.elastic_strain = s.elastic_strain, point.stress = s.stress, point.dissipated = s.dissipated;
   std::size_t k = 0;
-  law.members(s, [&](const auto& member) { hand_over(member, [&](double v) { point.variables[k++] = v; }); });
+  law.members(s, [&](const auto& member) VITRUM_INLINE_LAMBDA {
+    hand_over(member, [&](double v) VITRUM_INLINE_LAMBDA { point.variables[k++] = v; });
+  });
 }
 
 }  // namespace vitrum

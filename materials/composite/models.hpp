@@ -31,7 +31,7 @@ class CompositeModels {
 
   /// Calls f(variable) for what is stored of a state.
   template <class S, class F>
-  static void members([[maybe_unused]] S& s, [[maybe_unused]] F&& f) {
+  VITRUM_INLINE static void members([[maybe_unused]] S& s, [[maybe_unused]] F&& f) {
     if constexpr (has_damage) f(s.crack_density), f(s.max_rate);
     if constexpr (has_yield) f(s.plastic_strain);
     if constexpr (has_decohesion) {
