@@ -37,8 +37,8 @@ void ParticleSystem::error_weights(double* weights) const {
     for (std::size_t a = strain + 1; a < arrays(); ++a)
       std::copy(of_strain + begin, of_strain + end, weights + place(n, a) + begin);
   });
-  // The work follows from the others; it steers nothing.
-  if (works_) weights[size_ - 1] = 0.0;
+  // Works and impulses follow from the others; they steer nothing.
+  std::fill(weights + tail_, weights + size_, 0.0);
 }
 
 void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) const {
@@ -72,7 +72,7 @@ void ParticleSystem::add_errors(const double* errors, ErrorEstimate& estimate) c
 }
 
 double ParticleSystem::tolerance_of(std::size_t unknown) const {
-  if (works_ && unknown == size_ - 1) return std::numeric_limits<double>::infinity();
+  if (unknown >= tail_) return std::numeric_limits<double>::infinity();
   for (std::size_t n = system_.bodies.size(); n-- > 0;)
     if (unknown >= first_[n]) {
       const std::size_t particles = system_.bodies[n].particles.size, at = unknown - first_[n];
@@ -82,7 +82,8 @@ double ParticleSystem::tolerance_of(std::size_t unknown) const {
 }
 
 std::string ParticleSystem::describe(std::size_t unknown) const {
-  if (works_ && unknown == size_ - 1) return "external work";
+  if (unknown >= tail_)
+    return works_ && unknown == tail_ ? "external work" : "impulse or friction of contact";
   for (std::size_t n = system_.bodies.size(); n-- > 0;) {
     if (unknown < first_[n]) continue;
     const Body& body = system_.bodies[n];

@@ -32,7 +32,7 @@ void ParticleSystem::for_ranges(RangeTask task, void* context) const {
       const std::size_t first = place(part.body, a);
       task(context, k, first + part.begin, first + part.end);
     }
-    if (works_ && k + 1 == parts_.size()) task(context, k, size_ - 1, size_);
+    if (tail_ < size_ && k + 1 == parts_.size()) task(context, k, tail_, size_);
   });
 }
 

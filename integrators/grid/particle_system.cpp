@@ -10,6 +10,7 @@
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
 #include "mpm/carried.hpp"
+#include "mpm/contact/contact.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
 
@@ -37,7 +38,12 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
     last_strain_.emplace_back(particles, 0.0);
     if (!system.axisymmetric) start_[n].no_strain.assign(particles, 0.0);
   }
+  tail_ = size_;
   if (works_) ++size_;
+  if (system.contact) {
+    size_ += mpm::Contact::rates_of_pair * system.contact->pairs().size();
+    for (const Body& body : system.bodies) turned_.push_back({body.particles.turn, body.particles.mirrored});
+  }
   of_parts_.resize(parts_.size());
 }
 
@@ -67,7 +73,7 @@ void ParticleSystem::begin(double* y) {
   }
   for (std::vector<double>& norms : last_strain_) std::fill(norms.begin(), norms.end(), 0.0);
   committed_time_ = system_.time;
-  committed_work_ = 0.0;
+  committed_tail_.assign(size_ - tail_, 0.0);
 }
 
 /// Positions and velocities of the trial in place. Particles beyond the axis are represented by their images.
@@ -176,10 +182,9 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
       double& shear = system_.bodies[n].particles.tried_stress[3][i];
       shear = -shear;
     }
-  mpm::scatter(system_, mpm::Scatter::momentum_and_force);
+  const bool touching = touch(y);
+  mpm::scatter(system_, touching ? mpm::Scatter::momentum : mpm::Scatter::momentum_and_force);
   mpm::project_velocities(system_);
-  const double power = mpm::accelerate(system_);
-  reactions_.rates(system_, rates + size_);
   std::vector<mpm::ParticleRates> targets(system_.bodies.size());
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const auto at = [&](std::size_t array) { return rates + place(n, array); };
@@ -192,11 +197,38 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
     r.spin = at(turn());
     r.turn = y + place(n, turn());
   }
+  std::fill(rates + tail_, rates + size_, 0.0);
+  if (touching) {  // friction depends on how the grid moves
+    mpm::gather_rates(system_, targets);
+    std::vector<mpm::ParticleMotion> motion;
+    for (const mpm::ParticleRates& r : targets) motion.push_back({{r.position[0], r.position[1]}, r.spin});
+    system_.contact->load(system_, motion, rates + tail_ + (works_ ? 1 : 0));
+    mpm::scatter(system_, mpm::Scatter::force);
+    mpm::Contact::unload(system_);
+  }
+  const double power = mpm::accelerate(system_);
+  reactions_.rates(system_, rates + size_);
   mpm::gather_rates(system_, targets);
   mirror_rates(y, rates);
-  if (works_) rates[size_ - 1] = power;
+  if (works_) rates[tail_] = power;
   not_finite_ = is_finite(rates) ? std::nullopt : first_not_finite(rates, size_);
   return !not_finite_;
+}
+
+/// Whether bodies touch in the trial in place.
+bool ParticleSystem::touch(const double* y) {
+  if (!system_.contact) return false;
+  std::vector<mpm::Configuration> bodies = mpm::configurations(system_);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const Particles& p = system_.bodies[n].particles;
+    auto& [turned, side] = turned_[n];
+    const double *w = y + place(n, turn()), *committed = start_[n].turn.data();
+    side = p.mirrored;
+    for (std::size_t i = 0; i < p.size; ++i) turned[i] = p.turn[i] + (w[i] - committed[i]);
+    for (const std::size_t i : mirrored_[n]) turned[i] = -turned[i], side[i] = -side[i];
+    bodies[n].turn = turned.data(), bodies[n].mirrored = side.data();
+  }
+  return system_.contact->evaluate(system_, bodies);
 }
 
 /// Whether all values are finite.
@@ -241,14 +273,25 @@ bool ParticleSystem::commit(double t, double* y) {
     const double* w = y + place(n, turn());
     std::copy(w + begin, w + end, start_[n].turn.data() + begin);
     const auto& change = system_.bodies[n].particles.strain_increment;
+    if (system_.contact)
+      for (std::size_t i = begin; i < end; ++i)
+        system_.bodies[n].particles.turn[i] += system_.bodies[n].particles.spin_increment[i];
     for (std::size_t i = begin; i < end; ++i)
       last_strain_[n][i] = norm(SymmetricTensor{change[0][i], change[1][i], change[2][i], change[3][i]});
   });
   committed_time_ = t;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
-  if (works_) system_.record.external_work += y[size_ - 1] - std::exchange(committed_work_, y[size_ - 1]);
+  changes_.resize(size_ - tail_);
+  for (std::size_t k = tail_; k < size_; ++k)
+    changes_[k - tail_] = y[k] - std::exchange(committed_tail_[k - tail_], y[k]);
+  if (works_) system_.record.external_work += changes_.front();
   reactions_.commit(system_, y + size_);
-  const bool replaced = reflect(y), carried = carry();
+  const bool replaced = reflect(y);
+  if (system_.contact) {
+    system_.contact->evaluate(system_, mpm::configurations(system_));
+    system_.contact->commit(system_, changes_.data() + (works_ ? 1 : 0));
+  }
+  const bool carried = carry();
   system_.record.kinetic = kinetic_energy();
   return replaced || carried;
 }

@@ -15,7 +15,8 @@ namespace vitrum {
 
 /// The particles as a system of ordinary differential equations. Unknowns of each body, one array after
 /// another: displacement since `begin` (2), velocity (2), strain (4; plane strain: 3) in the frame that turns
-/// with the particle, turn (1); at the end the external work, where there can be any. The grid is scratch:
+/// with the particle, turn (1); at the end the external work, where there can be any, and for each pair of
+/// bodies with contact its impulse (2) and the work of friction. The grid is scratch:
 ///   x' = sum N v_i,  v' = sum N f_i / m_i,  e' = R^T D R,  w' = spin,  with R the rotation by w,
 /// and the stress is the material's response to (committed state, strain since the last commit, time since
 /// then). Errors are relative to the cell, the scene's velocity scale, and its strain scale plus the
@@ -79,6 +80,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   void load(const double* y);
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
+  bool touch(const double* y);
   void mirror_rates(const double* y, double* rates) const;
   double kinetic_energy();
   bool reflect(double* y);
@@ -88,9 +90,9 @@ class ParticleSystem final : public sundials::ArkSystem {
   ErrorScales scales_;
   std::optional<std::size_t> not_finite_;
   double tolerance_, oscillation_limit_;
-  bool works_;  ///< external work is an unknown
-  std::size_t size_ = 0;
-  std::vector<std::size_t> first_;  ///< by body
+  bool works_;                       ///< external work is an unknown
+  std::size_t size_ = 0, tail_ = 0;  ///< tail_: the first unknown that is no particle's
+  std::vector<std::size_t> first_;   ///< by body
   std::vector<Part> parts_;
   std::vector<double> of_parts_;  ///< a result of each, for what ARKODE calls must not allocate
   mpm::Trial trial_;
@@ -105,7 +107,10 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::vector<std::vector<std::size_t>> mirrored_;  ///< by body: particles of the trial beyond the axis
   std::vector<std::vector<double>>
       last_strain_;  ///< by body: norm of each particle's strain in the last step
-  double committed_time_ = 0.0, committed_work_ = 0.0;
+  /// By body, where bodies have contact: turn since the start, and side, of the state tried.
+  std::vector<std::array<std::vector<double>, 2>> turned_;
+  std::vector<double> committed_tail_, changes_;
+  double committed_time_ = 0.0;
   double carried_work_ = 0.0;  ///< done at `begin`, not booked yet
 };
 

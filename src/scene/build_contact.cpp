@@ -45,13 +45,21 @@ double slip_speed(const Scene& scene, const System& system) {
   return fastest > 0.0 ? 0.01 * fastest : 1.0;
 }
 
+/// Bodies that stick: friction without a bound is no function of the state that an ODE solver could take.
+void require_finite(const Scene& scene, double friction) {
+  if (scene.integrator.method != GridMethod::explicit_steps && std::isinf(friction))
+    throw InputError(fmt::format("{}: found friction = inf, expected a finite coefficient with ARKODE",
+                                 scene.at("contact.friction")));
+}
+
 }  // namespace
 
 void build_contact(const Scene& scene, System& system) {
   if (scene.contact.method == ContactMethod::single || system.bodies.size() < 2) return;
-  if (scene.integrator.method != GridMethod::explicit_steps)
-    throw InputError(fmt::format("{}: found \"bodies\", which integrator.method = \"explicit\" alone knows",
-                                 scene.at("contact.method")));
+  if (scene.integrator.method == GridMethod::arkode_implicit)
+    throw InputError(
+        fmt::format("{}: found \"bodies\", which integrator.method = \"arkode-implicit\" does not know",
+                    scene.at("contact.method")));
   std::vector<mpm::BodyPair> pairs;
   std::vector<std::vector<mpm::Patch>> patches;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
@@ -64,6 +72,7 @@ void build_contact(const Scene& scene, System& system) {
            {stiffness_between(scene, system.bodies[a], system.bodies[b]), scene.contact.depth * scene.cell},
            friction_between(scene, a, b)});
   }
+  for (const mpm::BodyPair& pair : pairs) require_finite(scene, pair.friction);
   system.contact =
       std::make_shared<mpm::Contact>(system, std::move(pairs), patches, slip_speed(scene, system));
 }

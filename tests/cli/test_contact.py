@@ -19,7 +19,7 @@ class Contact(CommandLineTest):
 
     def test_bits(self):
         """Threads and an interruption change nothing."""
-        for method in ("explicit",):
+        for method in ("explicit", "arkode-explicit"):
             run = ("--set", f'integrator.method="{method}"')
             whole = self.run_scene(f"whole-{method}", *run, "--threads", "1", scene=slide)
             fields, energy = self.fields(whole), read_summary(whole)["energy"]

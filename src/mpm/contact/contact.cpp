@@ -7,22 +7,31 @@
 namespace vitrum::mpm {
 namespace {
 
-PlacedPatch placed(const Patch& patch, const Particles& p, std::size_t carrier) {
-  const double turn = p.turn[carrier], side = p.mirrored[carrier], c = std::cos(turn), s = std::sin(turn);
+PlacedPatch placed(const Patch& patch, const Configuration& at, std::size_t carrier) {
+  const double turn = at.turn[carrier], side = at.mirrored[carrier], c = std::cos(turn), s = std::sin(turn);
   const Vector offset{side * patch.offset[0], patch.offset[1]};
   const Vector arm{c * offset[0] - s * offset[1], s * offset[0] + c * offset[1]};
-  return {{p.position[0][carrier] + arm[0], p.position[1][carrier] + arm[1]},
+  return {{at.position[0][carrier] + arm[0], at.position[1][carrier] + arm[1]},
           arm,
           turn + (side > 0.0 ? patch.angle : std::numbers::pi - patch.angle),
           patch.length,
           patch.ring};
 }
 
-void clear_forces(Particles& p) {
-  for (std::vector<double>& column : p.contact_force) column.clear();
+Vector difference(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1]};
 }
 
 }  // namespace
+
+std::vector<Configuration> configurations(const System& system) {
+  std::vector<Configuration> list;
+  for (const Body& body : system.bodies) {
+    const Particles& p = body.particles;
+    list.push_back({{p.position[0].data(), p.position[1].data()}, p.turn.data(), p.mirrored.data()});
+  }
+  return list;
+}
 
 Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches,
                  double slip_speed)
@@ -41,7 +50,8 @@ Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<
       const auto& v = system.bodies[body].particles.velocity;
       velocity_.push_back({v[0][carrier_[k]], v[1][carrier_[k]]});
     }
-  system.record.contact = evaluate(system);
+  evaluate(system, configurations(system));
+  note_state(system);
 }
 
 void Contact::find_carriers(const System& system) {
@@ -57,18 +67,19 @@ void Contact::find_carriers(const System& system) {
   found_ = true, sorted_ = system.grid.times_sorted();
 }
 
-void Contact::place_patches(const System& system) {
+void Contact::place_patches(const System& system, std::span<const Configuration> bodies) {
   find_carriers(system);
   placed_.resize(patches_.size()), mirrored_.resize(patches_.size());
-  for (std::size_t body = 0; body < system.bodies.size(); ++body) {
-    const Particles& p = system.bodies[body].particles;
-    for (std::size_t k = first_[body]; k < first_[body + 1]; ++k)
-      placed_[k] = placed(patches_[k], p, carrier_[k]), mirrored_[k] = p.mirrored[carrier_[k]];
-  }
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    for (std::size_t k = first_[body]; k < first_[body + 1]; ++k) {
+      placed_[k] = placed(patches_[k], bodies[body], carrier_[k]);
+      mirrored_[k] = bodies[body].mirrored[carrier_[k]];
+    }
 }
 
 void Contact::find_touches() {
   touches_.clear();
+  gaps_.assign(pairs_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t n = 0; n < pairs_.size(); ++n) {
     const auto [a, b, law, friction] = pairs_[n];
     const std::span<const PlacedPatch> all(placed_), of_a = all.subspan(first_[a], first_[a + 1] - first_[a]),
@@ -78,8 +89,7 @@ void Contact::find_touches() {
       for (const PlacedPatch& p : patches) length = std::max(length, p.length);
     search_.find(of_a, of_b, std::hypot(length, 2.0 * law.depth), [&](std::uint32_t i, std::uint32_t j) {
       const PairForce force = pair_force(of_a[i], of_b[j], law);
-      if (force.overlap > 0.0 && force.gap > -law.depth)
-        history_[n].least_gap = std::min(history_[n].least_gap, force.gap);
+      if (force.overlap > 0.0 && force.gap > -law.depth) gaps_[n] = std::min(gaps_[n], force.gap);
       if (force.energy > 0.0)
         touches_.push_back(
             {n, i + static_cast<std::uint32_t>(first_[a]), j + static_cast<std::uint32_t>(first_[b]), force});
@@ -87,67 +97,116 @@ void Contact::find_touches() {
   }
 }
 
-double Contact::evaluate(const System& system) {
-  place_patches(system);
+bool Contact::evaluate(const System& system, std::span<const Configuration> bodies) {
+  place_patches(system, bodies);
   find_touches();
-  evaluated_ = true;
-  double energy = 0.0;
-  for (const Touch& t : touches_) energy += t.force.energy;
-  return energy;
+  return !touches_.empty();
 }
 
-/// The force of friction on b, and its work in a step. It never turns sliding round within the step.
-Vector Contact::rub(const System& system, const Touch& t, double duration, double& work) const {
-  const BodyPair& pair = pairs_[t.pair];
+/// The state evaluated is the system's.
+void Contact::note_state(System& system) {
+  system.record.contact = 0.0;
+  for (const Touch& t : touches_) system.record.contact += t.force.energy;
+  for (std::size_t n = 0; n < pairs_.size(); ++n)
+    history_[n].least_gap = std::min(history_[n].least_gap, gaps_[n]);
+}
+
+/// Friction on b, which slides over a with a velocity, as a function of the speed along the surfaces.
+template <class Size>
+Vector Contact::rub(const Touch& t, const Vector& sliding, const Size& size_of, double& power) const {
   const Vector along{-t.force.normal[1], t.force.normal[0]};
-  const double slip = dot(velocity_[t.b], along) - dot(velocity_[t.a], along), speed = std::abs(slip);
-  if (pair.friction == 0.0 || speed == 0.0 || t.force.pressure == 0.0) return {};
-  const double ma = system.bodies[pair.a].particles.mass[carrier_[t.a]],
-               mb = system.bodies[pair.b].particles.mass[carrier_[t.b]];
-  const double stopping = t.force.overlap * ma * mb / (ma + mb) * speed / (2.0 * duration);
-  const double size =
-      std::min(pair.friction * t.force.pressure, stopping) * std::min(1.0, speed / slip_speed_);
-  work = size * speed * duration;
-  const double signed_size = -std::copysign(size, slip);
-  return {signed_size * along[0], signed_size * along[1]};
+  const double slip = dot(sliding, along), speed = std::abs(slip);
+  if (pairs_[t.pair].friction == 0.0 || speed == 0.0 || t.force.pressure == 0.0) return {};
+  const double size = size_of(speed);
+  power = size * speed;
+  return {-std::copysign(size, slip) * along[0], -std::copysign(size, slip) * along[1]};
 }
 
-void Contact::push(System& system, std::size_t patch, std::size_t body, const Vector& force,
-                   double couple) const {
-  Particles& p = system.bodies[body].particles;
-  if (p.contact_force[0].empty())
-    for (std::vector<double>& column : p.contact_force) column.assign(p.size, 0.0);
-  const std::size_t i = carrier_[patch];
-  p.contact_force[0][i] += force[0], p.contact_force[1][i] += force[1];
-  p.contact_force[2][i] += couple + cross(placed_[patch].arm, force);
+/// friction: on b.
+void Contact::push(System& system, const Touch& t, const Vector& friction) const {
+  const auto add = [&](std::size_t body, std::size_t patch, const Vector& force, double couple) {
+    Particles& p = system.bodies[body].particles;
+    if (p.contact_force[0].empty())
+      for (std::vector<double>& column : p.contact_force) column.assign(p.size, 0.0);
+    const std::size_t i = carrier_[patch];
+    p.contact_force[0][i] += force[0], p.contact_force[1][i] += force[1];
+    p.contact_force[2][i] += couple + cross(placed_[patch].arm, force);
+  };
+  const Vector on_b{t.force.force[0] + friction[0], t.force.force[1] + friction[1]};
+  add(pairs_[t.pair].b, t.b, on_b, t.force.couple_b);
+  add(pairs_[t.pair].a, t.a, {-on_b[0], -on_b[1]}, t.force.couple_a);
+}
+
+void Contact::unload(System& system) {
+  for (Body& body : system.bodies)
+    for (std::vector<double>& column : body.particles.contact_force) column.clear();
 }
 
 void Contact::begin_step(System& system, double duration) {
   find_carriers(system);
-  if (!evaluated_) system.record.contact = evaluate(system);
-  for (Body& body : system.bodies) clear_forces(body.particles);
+  if (!evaluated_) evaluate(system, configurations(system));
+  unload(system);
   system.record.friction = 0.0;
   for (const Touch& t : touches_) {
     const BodyPair& pair = pairs_[t.pair];
-    double work = 0.0;
-    const Vector friction = rub(system, t, duration, work);
-    const Vector on_b{t.force.force[0] + friction[0], t.force.force[1] + friction[1]};
-    push(system, t.b, pair.b, on_b, t.force.couple_b);
-    push(system, t.a, pair.a, {-on_b[0], -on_b[1]}, t.force.couple_a);
+    const double ma = system.bodies[pair.a].particles.mass[carrier_[t.a]],
+                 mb = system.bodies[pair.b].particles.mass[carrier_[t.b]];
+    const auto size_of = [&](double speed) {  // it never turns sliding round within the step
+      const double stopping = t.force.overlap * ma * mb / (ma + mb) * speed / (2.0 * duration);
+      return std::min(pair.friction * t.force.pressure, stopping) * std::min(1.0, speed / slip_speed_);
+    };
+    double power = 0.0;
+    const Vector friction = rub(t, difference(velocity_[t.b], velocity_[t.a]), size_of, power);
+    push(system, t, friction);
     ContactHistory& history = history_[t.pair];
-    for (std::size_t c = 0; c < 2; ++c) history.impulse[c] -= duration * on_b[c];
-    history.friction_work += work, system.record.friction += work;
+    for (std::size_t c = 0; c < 2; ++c) history.impulse[c] -= duration * (t.force.force[c] + friction[c]);
+    history.friction_work += duration * power, system.record.friction += duration * power;
   }
   evaluated_ = false;
 }
 
 void Contact::end_step(System& system, double duration) {
   before_.swap(placed_), mirrored_before_.swap(mirrored_);
-  system.record.contact = evaluate(system);
+  evaluate(system, configurations(system));
+  note_state(system);
+  evaluated_ = true;
   for (std::size_t k = 0; k < patches_.size(); ++k) {
     const double side = mirrored_[k] == mirrored_before_[k] ? 1.0 : -1.0;
     velocity_[k] = {(placed_[k].place[0] - side * before_[k].place[0]) / duration,
                     (placed_[k].place[1] - before_[k].place[1]) / duration};
+  }
+}
+
+void Contact::load(System& system, std::span<const ParticleMotion> motion, double* rates) const {
+  unload(system);
+  std::fill(rates, rates + rates_of_pair * pairs_.size(), 0.0);
+  for (const Touch& t : touches_) {
+    const BodyPair& pair = pairs_[t.pair];
+    const auto velocity = [&](std::size_t body, std::size_t patch) -> Vector {
+      const ParticleMotion& m = motion[body];
+      const std::size_t i = carrier_[patch];
+      return {m.velocity[0][i] - m.spin[i] * placed_[patch].arm[1],
+              m.velocity[1][i] + m.spin[i] * placed_[patch].arm[0]};
+    };
+    const auto size_of = [&](double speed) {
+      return pair.friction * t.force.pressure * speed / std::hypot(speed, slip_speed_);
+    };
+    double power = 0.0;
+    const Vector friction = rub(t, difference(velocity(pair.b, t.b), velocity(pair.a, t.a)), size_of, power);
+    push(system, t, friction);
+    double* of_pair = rates + rates_of_pair * t.pair;
+    for (std::size_t c = 0; c < 2; ++c) of_pair[c] -= t.force.force[c] + friction[c];
+    of_pair[2] += power;
+  }
+}
+
+void Contact::commit(System& system, const double* changes) {
+  note_state(system);
+  system.record.friction = 0.0;
+  for (ContactHistory& history : history_) {
+    history.impulse[0] += changes[0], history.impulse[1] += changes[1];
+    history.friction_work += changes[2], system.record.friction += changes[2];
+    changes += rates_of_pair;
   }
 }
 
@@ -159,12 +218,11 @@ std::vector<double> Contact::state() const {
   return values;
 }
 
-bool Contact::restore(const System& system, std::span<const double> state) {
+bool Contact::restore(std::span<const double> state) {
   if (state.size() != 2 * velocity_.size() + 4 * history_.size()) return false;
   const double* next = state.data();
   for (Vector& v : velocity_) v = {next[0], next[1]}, next += 2;
-  found_ = false;
-  evaluate(system);
+  found_ = evaluated_ = false;
   for (ContactHistory& h : history_) h = {{next[0], next[1]}, next[2], next[3]}, next += 4;
   return true;
 }

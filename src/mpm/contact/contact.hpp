@@ -16,6 +16,19 @@ struct BodyPair {
   double friction;  ///< Coulomb's coefficient; infinite: they stick
 };
 
+/// Where the particles of a body are that patches are placed with: columns, as those of Particles.
+struct Configuration {
+  std::array<const double*, 2> position;
+  const double *turn, *mirrored;
+};
+std::vector<Configuration> configurations(const System& system);
+
+/// Velocities of a body's particles as the grid moves them, by place, and their spin.
+struct ParticleMotion {
+  std::array<const double*, 2> velocity;  ///< m/s
+  const double* spin;                     ///< rad/s
+};
+
 /// What has passed between two bodies since the start.
 struct ContactHistory {
   Vector impulse{};                                            ///< N s, on a (per radian or per metre)
@@ -40,9 +53,15 @@ class Contact {
   /// is what friction acts against next.
   void end_step(System& system, double duration);
 
-  /// Places patches with their carriers and computes their forces; the energy stored, J (per radian or
-  /// metre).
-  double evaluate(const System& system);
+  /// For integrators that try states out. Places patches and computes their forces; whether some touch.
+  bool evaluate(const System& system, std::span<const Configuration> bodies);
+  /// Gives particles the forces of the state evaluated, until `unload`. motion: by body. rates: for every
+  /// pair of bodies the force on a (2) and the power of friction, a Lipschitz function of the state.
+  void load(System& system, std::span<const ParticleMotion> motion, double* rates) const;
+  static void unload(System& system);
+  /// Makes what the rates have come to since the last time the system's; the state evaluated is the present.
+  void commit(System& system, const double* changes);
+  static constexpr std::size_t rates_of_pair = 3;
 
   std::span<const BodyPair> pairs() const { return pairs_; }
   std::span<const ContactHistory> history() const { return history_; }
@@ -50,7 +69,7 @@ class Contact {
   /// What a run must know to go on: by name.
   std::vector<double> state() const;
   /// Takes up again what `state` said, particles having been restored. False: it is not this scene's.
-  bool restore(const System& system, std::span<const double> state);
+  bool restore(std::span<const double> state);
 
  private:
   struct Touch {
@@ -59,10 +78,12 @@ class Contact {
     PairForce force;
   };
   void find_carriers(const System& system);
-  void place_patches(const System& system);
+  void place_patches(const System& system, std::span<const Configuration> bodies);
   void find_touches();
-  Vector rub(const System& system, const Touch& touch, double duration, double& work) const;
-  void push(System& system, std::size_t patch, std::size_t body, const Vector& force, double couple) const;
+  void note_state(System& system);
+  template <class Size>
+  Vector rub(const Touch& touch, const Vector& sliding, const Size& size_of, double& power) const;
+  void push(System& system, const Touch& touch, const Vector& friction) const;
 
   std::vector<BodyPair> pairs_;
   std::vector<ContactHistory> history_;  // by pair
@@ -77,6 +98,7 @@ class Contact {
   std::vector<double> mirrored_, mirrored_before_;
   std::vector<Vector> velocity_;  // m/s, by patch, in the last step
   std::vector<Touch> touches_;
+  std::vector<double> gaps_;  // m, least, by pair
   PairSearch search_;
 };
 
