@@ -15,7 +15,7 @@ using sundials::ArkSolver;
 
 void ArkodeImplicit::prepare(System& system) {
   context_ = std::make_unique<sundials::Context>();
-  grid_ = std::make_unique<GridSystem>(system, settings_.scales, settings_.tolerance);
+  grid_ = std::make_unique<GridSystem>(system, settings_.scales, settings_.tolerance, remap_.travel);
   tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
 }
 

@@ -17,14 +17,18 @@ namespace vitrum {
 using mpm::Field;
 using mpm::FiniteStrain;
 
-GridSystem::GridSystem(System& system, const ErrorScales& scales, double tolerance)
+GridSystem::GridSystem(System& system, const ErrorScales& scales, double tolerance, double travel)
     : system_(system),
       scales_(scales),
       tolerance_(tolerance),
       works_(mpm::has_external_work(system)),
+      tail_((works_ ? 1 : 0) +
+            (system.contact ? mpm::Contact::rates_of_pair * system.contact->pairs().size() : 0)),
+      travel_(travel),
       trial_(system, mpm::Trial::Moves::nodes),
       reactions_(system),
-      deformations_(system.bodies.size()) {
+      deformations_(system.bodies.size()),
+      motions_(system.contact ? system.bodies.size() : 0) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
     system.bodies[n].particles.keep_increments();
@@ -32,6 +36,14 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
     for (std::size_t k = 0; k < 5; ++k) {
       deformations_[n].gradient[k].assign(particles, 0.0);
       targets.gradient[k] = deformations_[n].gradient[k].data();
+    }
+    if (system.contact) {
+      Motion& m = motions_[n];
+      for (auto* columns : {&m.displacement, &m.position, &m.velocity})
+        for (std::vector<double>& column : *columns) column.assign(particles, 0.0);
+      for (std::vector<double>& column : m.velocity_gradient) column.assign(particles, 0.0);
+      m.turn.assign(particles, 0.0), m.spin.assign(particles, 0.0);
+      targets.value = {m.displacement[0].data(), m.displacement[1].data()};
     }
     gradients_.push_back(targets);
   }
@@ -44,7 +56,12 @@ void GridSystem::begin_phase() {
   mpm::scatter(system_, mpm::Scatter::momentum);
   mpm::project_velocities(system_);
   mpm::number_unknowns(system_, nodes_);
-  stiffness_.lay_out(system_, nodes_);
+  std::vector<mpm::CarrierPair> couplings;
+  if (system_.contact) {
+    system_.contact->evaluate(system_, mpm::configurations(system_));
+    couplings = system_.contact->foresee(travel_ * system_.cell);
+  }
+  stiffness_.lay_out(system_, nodes_, couplings);
   start_velocity_.resize(nodes_.size());
   mpm::read_field(system_, nodes_, Field::velocity_0, start_velocity_.data());
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -53,7 +70,7 @@ void GridSystem::begin_phase() {
     deformations_[n].committed_turn.assign(particles, 0.0);
   }
   start_time_ = committed_time_ = system_.time;
-  committed_work_ = 0.0, deformation_ = 0.0;
+  committed_tail_.assign(tail_, 0.0), deformation_ = 0.0;
   start_kinetic_ = mpm::kinetic_energy(system_);
   mean_mass_ = nodes_.size() == 0 ? 1.0
                                   : std::accumulate(nodes_.mass.begin(), nodes_.mass.end(), 0.0) /
@@ -83,6 +100,46 @@ bool GridSystem::deform(double t, const double* y) {
     });
   }
   return changed.raised();
+}
+
+/// Whether bodies touch in the state deformed to. Patches turn by the antisymmetric part of the gradient:
+/// what a couple acts on (scatter.cpp). (Phases are short; it is the turn to the second order.)
+bool GridSystem::touch() {
+  if (!system_.contact) return false;
+  std::vector<mpm::Configuration> bodies = mpm::configurations(system_);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const Particles& p = system_.bodies[n].particles;
+    const auto& g = deformations_[n].gradient;
+    Motion& m = motions_[n];
+    for_particles(system_, n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t c = 0; c < 2; ++c) m.position[c][i] = p.position[c][i] + m.displacement[c][i];
+        m.turn[i] = p.turn[i] + 0.5 * (g[2][i] - g[1][i]);
+      }
+    });
+    bodies[n] = {{m.position[0].data(), m.position[1].data()}, m.turn.data(), p.mirrored.data()};
+  }
+  return system_.contact->evaluate(system_, bodies);
+}
+
+/// How particles move at y; zero where no friction asks. Fills the nodal velocity.
+std::vector<mpm::ParticleMotion> GridSystem::motions(const double* y) {
+  std::vector<mpm::ParticleMotion> list;
+  for (const Motion& m : motions_)
+    list.push_back({{m.velocity[0].data(), m.velocity[1].data()}, m.spin.data()});
+  if (!system_.contact->rubs()) return list;
+  mpm::fill_field(system_, nodes_, y + nodes_.size(), 1.0, Field::velocity_0);
+  std::vector<mpm::ParticleGradient> targets(motions_.size());
+  for (std::size_t n = 0; n < motions_.size(); ++n) {
+    Motion& m = motions_[n];
+    for (std::size_t k = 0; k < 5; ++k) targets[n].gradient[k] = m.velocity_gradient[k].data();
+    targets[n].value = {m.velocity[0].data(), m.velocity[1].data()};
+  }
+  mpm::gather_gradient(system_, targets);
+  for (Motion& m : motions_)
+    for (std::size_t i = 0; i < m.spin.size(); ++i)
+      m.spin[i] = 0.5 * (m.velocity_gradient[2][i] - m.velocity_gradient[1][i]);
+  return list;
 }
 
 /// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment
@@ -142,12 +199,15 @@ void GridSystem::try_stress(double t, bool changed) {
 bool GridSystem::rates(double t, const double* y, double* rates) {
   const std::size_t n = nodes_.size();
   const bool changed = deform(t, y);
+  std::fill(rates + 2 * n, rates + size(), 0.0);
+  if (touch()) system_.contact->load(system_, motions(y), rates + 2 * n + (works_ ? 1 : 0));
   {
     const mpm::Trial::Scope scope(system_, trial_);
     set_increments(false);
     try_stress(t, changed);
     mpm::scatter(system_, mpm::Scatter::force);
   }
+  mpm::Contact::unload(system_);
   if (works_) mpm::fill_field(system_, nodes_, y + n, 1.0, Field::velocity_0);
   const double power = mpm::accelerate(system_);
   reactions_.rates(system_, rates + size());
@@ -159,21 +219,33 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
 }
 
 bool GridSystem::linearise(double t, const double* y) {
-  const bool changed = deform(t, y);
+  const bool changed = deform(t, y), touching = touch();
+  std::vector<mpm::ParticleMotion> motion;
+  if (touching) motion = motions(y);
   const mpm::Trial::Scope scope(system_, trial_);
   set_increments(false);
   try_stress(t, changed);
   mpm::gather_tangents(system_, trial_, std::max(0.0, t - committed_time_), tangents_);
   stiffness_.assemble(system_, nodes_, gradients_, tangents_, stiffness_values_);
+  damping_values_.clear();
+  if (touching) {
+    if (system_.contact->rubs()) damping_values_.assign(stiffness_values_.size(), 0.0);
+    system_.contact->linearise(motion, [&](const mpm::CarrierPair& pair, const mpm::Vector& normal,
+                                           double stiffness, const mpm::Vector& along, double damping) {
+      stiffness_.add(pair, normal, stiffness, stiffness_values_);
+      if (damping > 0.0) stiffness_.add(pair, along, damping, damping_values_);
+    });
+  }
   double sum = 0.0;
   for (const double k : stiffness_values_) sum += k;
   return std::isfinite(sum);
 }
 
 void GridSystem::form(double gamma, double* values) const {
-  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma
-  // K b_u.
+  // (I - gamma J) x = b with u' = v, M v' = f(u, v): eliminating x_u leaves (M + gamma C + gamma^2 K) x_v =
+  // M b_v - gamma K b_u.
   for (std::size_t k = 0; k < stiffness_values_.size(); ++k) values[k] = gamma * gamma * stiffness_values_[k];
+  for (std::size_t k = 0; k < damping_values_.size(); ++k) values[k] += gamma * damping_values_[k];
   for (std::size_t k = 0; k < nodes_.size(); ++k) values[stiffness_.diagonal()[k]] += nodes_.mass[k];
 }
 
@@ -190,7 +262,7 @@ void GridSystem::reduce(double gamma, const double* b, double* c) const {
 void GridSystem::expand(double gamma, const double* b, const double* z, double* x) const {
   const std::size_t n = nodes_.size();
   for (std::size_t k = 0; k < n; ++k) x[k] = b[k] + gamma * z[k], x[n + k] = z[k];
-  if (works_) x[2 * n] = b[2 * n];  // depends on the others, not they on it
+  std::copy(b + 2 * n, b + size(), x + 2 * n);  // depends on the others, not they on it
 }
 
 void GridSystem::carry(double from, double to, std::vector<double>& y) {
@@ -235,9 +307,16 @@ void GridSystem::commit(double t, const double* y) {
     gained += 0.5 * nodes_.mass[k] * (y[n + k] - start_velocity_[k]) * (y[n + k] + start_velocity_[k]);
   system_.record.kinetic = start_kinetic_ + gained;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
-  if (works_) system_.record.external_work += y[2 * n] - std::exchange(committed_work_, y[2 * n]);
+  changes_.resize(tail_);
+  for (std::size_t k = 0; k < tail_; ++k)
+    changes_[k] = y[2 * n + k] - std::exchange(committed_tail_[k], y[2 * n + k]);
+  if (works_) system_.record.external_work += changes_.front();
   reactions_.commit(system_, y + size());
   system_.record.particles_moved = false;
+  if (system_.contact) {
+    touch();
+    system_.contact->commit(system_, changes_.data() + (works_ ? 1 : 0));
+  }
 }
 
 double GridSystem::end_phase(const double* y) {
@@ -246,6 +325,8 @@ double GridSystem::end_phase(const double* y) {
   mpm::fill_field(system_, nodes_, start_velocity_.data(), 1.0, Field::velocity_0);
   mpm::fill_field(system_, nodes_, y + n, 1.0, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
+  for (std::size_t body = 0; body < motions_.size(); ++body)
+    system_.bodies[body].particles.turn = motions_[body].turn;
   mpm::fill_field(system_, nodes_, y, committed_time_ - start_time_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::position, 1.0);
   system_.record.particles_moved = true;
@@ -296,7 +377,8 @@ void GridSystem::add_errors(const double* errors, ErrorEstimate& estimate) const
 
 std::string GridSystem::describe(std::size_t unknown) const {
   const std::size_t n = nodes_.size();
-  if (unknown >= 2 * n) return "external work";
+  if (unknown >= 2 * n)
+    return works_ && unknown == 2 * n ? "external work" : "impulse or friction of contact";
   return fmt::format("{} {}", unknown < n ? "displacement" : "velocity",
                      mpm::describe_unknown(system_, nodes_, unknown % n));
 }

@@ -6,6 +6,7 @@
 #include "integrators/grid/error_scales.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/ark_system.hpp"
+#include "mpm/contact/contact.hpp"
 #include "mpm/finite_strain.hpp"
 #include "mpm/nodal_unknowns.hpp"
 #include "mpm/reactions.hpp"
@@ -16,8 +17,9 @@
 namespace vitrum {
 
 /// The grid over one Lagrangian phase, in which particles keep their places and shape functions. Unknowns:
-/// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, and
-/// the external work where there can be any:
+/// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, the
+/// external work where there can be any, and for each pair of bodies with contact its impulse (2) and the
+/// work of friction:
 ///   u' = v,  v' = f_i(u) / m_i,
 /// with the stress of each particle the material's response to (committed state, strain since the last
 /// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
@@ -26,14 +28,14 @@ namespace vitrum {
 /// (docs/theory.md 1.2).
 class GridSystem final : public sundials::ReducibleSystem {
  public:
-  /// system must outlive it. tolerance: relative to the scales.
-  GridSystem(System& system, const ErrorScales& scales, double tolerance);
+  /// system must outlive it. tolerance: relative to the scales. travel: cells that a node goes in a phase.
+  GridSystem(System& system, const ErrorScales& scales, double tolerance, double travel = 0.25);
 
   /// Starts a phase from the system's particles. y is filled by `start`.
   void begin_phase();
   void start(double* y);
 
-  std::size_t size() const override { return 2 * nodes_.size() + (works_ ? 1 : 0); }
+  std::size_t size() const override { return 2 * nodes_.size() + tail_; }
   /// The impulses of boundaries since the phase began.
   std::size_t integrals() const override { return reactions_.size(); }
   bool rates(double t, const double* y, double* rates) override;
@@ -78,7 +80,15 @@ class GridSystem final : public sundials::ReducibleSystem {
     std::array<std::vector<double>, 4> committed_strain;
     std::vector<double> committed_turn;
   };
+  /// Where the particles are while a phase goes on, and how they move; only where bodies have contact.
+  struct Motion {
+    std::array<std::vector<double>, 2> displacement, position, velocity;
+    std::array<std::vector<double>, 5> velocity_gradient;
+    std::vector<double> turn, spin;
+  };
   bool deform(double t, const double* y);
+  bool touch();
+  std::vector<mpm::ParticleMotion> motions(const double* y);
   void set_increments(bool as_committed);
   void try_stress(double t, bool changed);
   double weight_of_mass(std::size_t unknown) const;
@@ -88,16 +98,20 @@ class GridSystem final : public sundials::ReducibleSystem {
   std::optional<std::size_t> not_finite_;
   double tolerance_;
   bool works_;
+  std::size_t tail_;  ///< unknowns behind those of the nodes
+  double travel_;     ///< cells
   mpm::Trial trial_;
   mpm::ReactionIntegrals reactions_;
   mpm::NodalUnknowns nodes_;
   mpm::Stiffness stiffness_;
-  std::vector<double> stiffness_values_;
+  std::vector<double> stiffness_values_, damping_values_;  ///< damping: empty where there is no friction
   std::vector<std::vector<TangentEntries>> tangents_;
   std::vector<Deformation> deformations_;         ///< by body
   std::vector<mpm::ParticleGradient> gradients_;  ///< pointers into them
-  std::vector<double> start_velocity_;            ///< by node unknown
-  double start_time_ = 0.0, committed_time_ = 0.0, committed_work_ = 0.0;
+  std::vector<Motion> motions_;                   ///< by body
+  std::vector<double> committed_tail_, changes_;
+  std::vector<double> start_velocity_;  ///< by node unknown
+  double start_time_ = 0.0, committed_time_ = 0.0;
   double carried_work_ = 0.0;  ///< done when the phase began, not booked yet
   double start_kinetic_ = 0.0, mean_mass_ = 0.0, deformation_ = 0.0;
 };

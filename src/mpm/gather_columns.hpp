@@ -134,6 +134,8 @@ void store_gradient(const Chunk& chunk, const ParticleGradient& to, const Interp
     zz[k] = per_cell * z[n + 1];
     tt[k] = axisymmetric ? v[n] / hoop_radius(radius[k], cell) : 0.0;
   }
+  for (std::size_t c = 0; c < 2 && to.value[c] != nullptr; ++c)
+    for (std::size_t k = 0; k < chunk.size(); ++k) to.value[c][chunk.place(k)] = v[P::width * k + c];
 }
 
 template <bool axisymmetric, bool small, class P>

@@ -72,8 +72,66 @@ std::size_t offset_between(const From& a, const To& b) {
 
 }  // namespace
 
-void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns) {
+void Stiffness::list_shares(const System& system, const NodalUnknowns& unknowns,
+                            std::span<const CarrierPair> couplings) {
+  shares_.clear();
+  for (const CarrierPair& pair : couplings)
+    shares_[key_of(pair.body_a, pair.particle_a)], shares_[key_of(pair.body_b, pair.particle_b)];
+  if (shares_.empty()) return;
+  dispatch(system.grid, [&]<ShapeKind kind, bool>() {
+    for_stencils<kind>(system, [&](std::size_t n, std::size_t i, const auto& stencil) {
+      const auto entry = shares_.find(key_of(n, i));
+      if (entry == shares_.end()) return;
+      for (const StencilNode& s : stencil)
+        for (std::size_t c = 0; c < 2 && s.node >= 0; ++c)
+          if (const std::int32_t unknown = unknowns.number[2 * static_cast<std::size_t>(s.node) + c];
+              unknown >= 0)
+            entry->second.push_back({unknown, static_cast<std::uint8_t>(c), s.parity[c] * s.value});
+    });
+  });
+}
+
+/// The rows by which couplings lengthen the columns: those of the other particle's unknowns.
+std::vector<std::vector<std::int64_t>> Stiffness::coupled_rows(std::size_t unknowns,
+                                                               std::span<const CarrierPair> couplings) const {
+  std::vector<std::vector<std::int64_t>> rows(couplings.empty() ? 0 : unknowns);
+  for (const CarrierPair& pair : couplings)
+    for (const Share& a : shares_.at(key_of(pair.body_a, pair.particle_a)))
+      for (const Share& b : shares_.at(key_of(pair.body_b, pair.particle_b))) {
+        rows[static_cast<std::size_t>(a.unknown)].push_back(b.unknown);
+        rows[static_cast<std::size_t>(b.unknown)].push_back(a.unknown);
+      }
+  for (std::vector<std::int64_t>& column : rows) {
+    std::sort(column.begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
+  }
+  return rows;
+}
+
+void Stiffness::add(const CarrierPair& pair, const Vector& direction, double size,
+                    std::vector<double>& values) const {
+  std::vector<std::pair<std::int64_t, double>> stretch;  // of the spring, by unknown
+  const auto list = [&](std::size_t body, std::size_t particle, double sign) {
+    if (const auto entry = shares_.find(key_of(body, particle)); entry != shares_.end())
+      for (const Share& s : entry->second)
+        stretch.emplace_back(s.unknown, sign * s.weight * direction[s.component]);
+  };
+  list(pair.body_a, pair.particle_a, -1.0), list(pair.body_b, pair.particle_b, 1.0);
+  for (const auto& [column, by_column] : stretch) {
+    const auto k = static_cast<std::size_t>(column);
+    const auto first = pattern_.row.begin() + pattern_.column[k],
+               last = pattern_.row.begin() + pattern_.column[k + 1];
+    for (const auto& [row, by_row] : stretch)
+      if (const auto at = std::find(first, last, row); at != last)
+        values[static_cast<std::size_t>(at - pattern_.row.begin())] += size * by_row * by_column;
+  }
+}
+
+void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns,
+                        std::span<const CarrierPair> couplings) {
   const Grid& grid = system.grid;
+  list_shares(system, unknowns, couplings);
+  const std::vector<std::vector<std::int64_t>> coupled = coupled_rows(unknowns.size(), couplings);
   links_.assign(grid.blocks().size() * block_nodes, {});
   dispatch(grid, [&]<ShapeKind kind, bool>() {
     for_stencils<kind>(system, [&](std::size_t, std::size_t, const auto& stencil) {
@@ -106,6 +164,7 @@ void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns) {
         ++rows;
       }
     }
+    if (!coupled.empty()) pattern_.row.insert(pattern_.row.end(), coupled[k].begin(), coupled[k].end());
     pattern_.column.push_back(static_cast<std::int64_t>(pattern_.row.size()));
   }
 }

@@ -1,7 +1,9 @@
 #pragma once
 #include <span>
+#include <unordered_map>
 
 #include "integrators/sundials/ark_system.hpp"
+#include "mpm/contact/patch.hpp"
 #include "mpm/nodal_unknowns.hpp"
 #include "mpm/transfer.hpp"
 
@@ -11,8 +13,10 @@ namespace vitrum::mpm {
 /// pattern is fixed as long as the particles stay where they are.
 class Stiffness {
  public:
-  /// Lays the pattern out anew for the particles' present positions.
-  void lay_out(const System& system, const NodalUnknowns& unknowns);
+  /// Lays the pattern out anew for the particles' present positions. couplings: particles of different
+  /// velocity fields that may act on each other.
+  void lay_out(const System& system, const NodalUnknowns& unknowns,
+               std::span<const CarrierPair> couplings = {});
 
   const sundials::SparsePattern& pattern() const { return pattern_; }
   /// Place of each diagonal entry.
@@ -24,6 +28,9 @@ class Stiffness {
   void assemble(const System& system, const NodalUnknowns& unknowns,
                 std::span<const ParticleGradient> gradients,
                 std::span<const std::vector<TangentEntries>> tangents, std::vector<double>& values) const;
+  /// Adds a spring (or damper) between two particles along a direction. Of particles that `lay_out` was not
+  /// told of, what has no place in the pattern is left out.
+  void add(const CarrierPair& pair, const Vector& direction, double size, std::vector<double>& values) const;
 
  private:
   /// Neighbours of a node are told by their offset in [-2, 2]^2.
@@ -32,7 +39,21 @@ class Stiffness {
     std::uint32_t mask = 0;                         ///< offsets that share a particle
     std::array<std::uint8_t, offsets> first_row{};  ///< rows of a column before those of an offset
   };
-  std::vector<Links> links_;  ///< by node
+  /// Share of a particle's motion that an unknown has.
+  struct Share {
+    std::int64_t unknown;
+    std::uint8_t component;
+    double weight;
+  };
+  static std::uint64_t key_of(std::size_t body, std::size_t particle) {
+    return (static_cast<std::uint64_t>(body) << 32) | particle;
+  }
+  void list_shares(const System& system, const NodalUnknowns& unknowns,
+                   std::span<const CarrierPair> couplings);
+  std::vector<std::vector<std::int64_t>> coupled_rows(std::size_t unknowns,
+                                                      std::span<const CarrierPair> couplings) const;
+  std::unordered_map<std::uint64_t, std::vector<Share>> shares_;  ///< of coupled particles
+  std::vector<Links> links_;                                      ///< by node
   sundials::SparsePattern pattern_;
   std::vector<std::int64_t> diagonal_;
 };

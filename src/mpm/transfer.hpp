@@ -70,6 +70,7 @@ void gather_rates(System& system, std::span<const ParticleRates> rates);
 /// Where the gradient of one body goes: (rr, rz, zr, zz, tt), dv_i/dx_j; tt is v_r / r.
 struct ParticleGradient {
   std::array<double*, 5> gradient;
+  std::array<double*, 2> value{};  ///< the velocity itself; null: not wanted
 };
 /// Gradient of the nodal `velocity` (or of what stands in its place) at every particle. gradients: by body.
 void gather_gradient(System& system, std::span<const ParticleGradient> gradients);

@@ -56,10 +56,6 @@ void require_finite(const Scene& scene, double friction) {
 
 void build_contact(const Scene& scene, System& system) {
   if (scene.contact.method == ContactMethod::single || system.bodies.size() < 2) return;
-  if (scene.integrator.method == GridMethod::arkode_implicit)
-    throw InputError(
-        fmt::format("{}: found \"bodies\", which integrator.method = \"arkode-implicit\" does not know",
-                    scene.at("contact.method")));
   std::vector<mpm::BodyPair> pairs;
   std::vector<std::vector<mpm::Patch>> patches;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {

@@ -19,8 +19,8 @@ class Contact(CommandLineTest):
 
     def test_bits(self):
         """Threads and an interruption change nothing."""
-        for method in ("explicit", "arkode-explicit"):
-            run = ("--set", f'integrator.method="{method}"')
+        for method in ("explicit", "arkode-explicit", "arkode-implicit"):
+            run = ("--set", f'integrator.method="{method}"', *overrides(time__end=20e-6, output__checkpoint_every=10e-6))
             whole = self.run_scene(f"whole-{method}", *run, "--threads", "1", scene=slide)
             fields, energy = self.fields(whole), read_summary(whole)["energy"]
             shared = self.run_scene(f"shared-{method}", *run, "--threads", "3", scene=slide)

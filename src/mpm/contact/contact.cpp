@@ -77,24 +77,41 @@ void Contact::place_patches(const System& system, std::span<const Configuration>
     }
 }
 
+/// How far patches of two bodies that act on each other can be apart, m.
+double Contact::reach(const BodyPair& pair) const {
+  double length = 0.0;
+  for (const std::size_t body : {pair.a, pair.b})
+    for (const PlacedPatch& p : patches_of(body)) length = std::max(length, p.length);
+  return std::hypot(length, 2.0 * pair.law.depth);
+}
+
 void Contact::find_touches() {
   touches_.clear();
   gaps_.assign(pairs_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t n = 0; n < pairs_.size(); ++n) {
-    const auto [a, b, law, friction] = pairs_[n];
-    const std::span<const PlacedPatch> all(placed_), of_a = all.subspan(first_[a], first_[a + 1] - first_[a]),
-                                                     of_b = all.subspan(first_[b], first_[b + 1] - first_[b]);
-    double length = 0.0;
-    for (const auto& patches : {of_a, of_b})
-      for (const PlacedPatch& p : patches) length = std::max(length, p.length);
-    search_.find(of_a, of_b, std::hypot(length, 2.0 * law.depth), [&](std::uint32_t i, std::uint32_t j) {
-      const PairForce force = pair_force(of_a[i], of_b[j], law);
-      if (force.overlap > 0.0 && force.gap > -law.depth) gaps_[n] = std::min(gaps_[n], force.gap);
+    const BodyPair& pair = pairs_[n];
+    const std::span<const PlacedPatch> a = patches_of(pair.a), b = patches_of(pair.b);
+    search_.find(a, b, reach(pair), [&](std::uint32_t i, std::uint32_t j) {
+      const PairForce force = pair_force(a[i], b[j], pair.law);
+      if (force.overlap > 0.0 && force.gap > -pair.law.depth) gaps_[n] = std::min(gaps_[n], force.gap);
       if (force.energy > 0.0)
-        touches_.push_back(
-            {n, i + static_cast<std::uint32_t>(first_[a]), j + static_cast<std::uint32_t>(first_[b]), force});
+        touches_.push_back({n, i + static_cast<std::uint32_t>(first_[pair.a]),
+                            j + static_cast<std::uint32_t>(first_[pair.b]), force});
     });
   }
+}
+
+std::vector<CarrierPair> Contact::foresee(double margin) {
+  std::vector<CarrierPair> list;
+  for (std::size_t n = 0; n < pairs_.size(); ++n) {
+    const BodyPair& pair = pairs_[n];
+    search_.find(patches_of(pair.a), patches_of(pair.b), reach(pair) + 2.0 * margin,
+                 [&](std::uint32_t i, std::uint32_t j) {
+                   list.push_back(carriers_of(n, i + static_cast<std::uint32_t>(first_[pair.a]),
+                                              j + static_cast<std::uint32_t>(first_[pair.b])));
+                 });
+  }
+  return list;
 }
 
 bool Contact::evaluate(const System& system, std::span<const Configuration> bodies) {
@@ -177,27 +194,44 @@ void Contact::end_step(System& system, double duration) {
   }
 }
 
+bool Contact::rubs() const {
+  return std::ranges::any_of(pairs_, [](const BodyPair& pair) { return pair.friction > 0.0; });
+}
+
+/// Velocity of b's patch relative to a's.
+Vector Contact::sliding(const Touch& t, std::span<const ParticleMotion> motion) const {
+  const auto velocity = [&](std::size_t body, std::size_t patch) -> Vector {
+    const ParticleMotion& m = motion[body];
+    const std::size_t i = carrier_[patch];
+    return {m.velocity[0][i] - m.spin[i] * placed_[patch].arm[1],
+            m.velocity[1][i] + m.spin[i] * placed_[patch].arm[0]};
+  };
+  return pairs_[t.pair].friction > 0.0
+             ? difference(velocity(pairs_[t.pair].b, t.b), velocity(pairs_[t.pair].a, t.a))
+             : Vector{};
+}
+
 void Contact::load(System& system, std::span<const ParticleMotion> motion, double* rates) const {
   unload(system);
   std::fill(rates, rates + rates_of_pair * pairs_.size(), 0.0);
   for (const Touch& t : touches_) {
-    const BodyPair& pair = pairs_[t.pair];
-    const auto velocity = [&](std::size_t body, std::size_t patch) -> Vector {
-      const ParticleMotion& m = motion[body];
-      const std::size_t i = carrier_[patch];
-      return {m.velocity[0][i] - m.spin[i] * placed_[patch].arm[1],
-              m.velocity[1][i] + m.spin[i] * placed_[patch].arm[0]};
-    };
     const auto size_of = [&](double speed) {
-      return pair.friction * t.force.pressure * speed / std::hypot(speed, slip_speed_);
+      return pairs_[t.pair].friction * t.force.pressure * speed / std::hypot(speed, slip_speed_);
     };
     double power = 0.0;
-    const Vector friction = rub(t, difference(velocity(pair.b, t.b), velocity(pair.a, t.a)), size_of, power);
+    const Vector friction = rub(t, sliding(t, motion), size_of, power);
     push(system, t, friction);
     double* of_pair = rates + rates_of_pair * t.pair;
     for (std::size_t c = 0; c < 2; ++c) of_pair[c] -= t.force.force[c] + friction[c];
     of_pair[2] += power;
   }
+}
+
+/// Derivative of the size of friction to the speed of sliding, N s/m.
+double Contact::damping(const Touch& t, std::span<const ParticleMotion> motion) const {
+  const Vector along{-t.force.normal[1], t.force.normal[0]};
+  const double relative = std::hypot(dot(sliding(t, motion), along) / slip_speed_, 1.0);
+  return pairs_[t.pair].friction * t.force.pressure / (slip_speed_ * relative * relative * relative);
 }
 
 void Contact::commit(System& system, const double* changes) {

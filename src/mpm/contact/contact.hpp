@@ -59,6 +59,20 @@ class Contact {
   /// pair of bodies the force on a (2) and the power of friction, a Lipschitz function of the state.
   void load(System& system, std::span<const ParticleMotion> motion, double* rates) const;
   static void unload(System& system);
+  /// Whether there is friction at all: else nobody asks for motions.
+  bool rubs() const;
+  /// For Newton's iterations over nodes: the carriers of all patches that may touch once none has moved by
+  /// more than `margin` (m) from the state evaluated.
+  std::vector<CarrierPair> foresee(double margin);
+  /// Calls add(carriers, normal, N/m, along, N s/m) for all that touch: stiffness along the normal, damping
+  /// by friction along the surface.
+  template <class Add>
+  void linearise(std::span<const ParticleMotion> motion, Add&& add) const {
+    for (const Touch& t : touches_) {
+      const Vector along{-t.force.normal[1], t.force.normal[0]};
+      add(carriers_of(t.pair, t.a, t.b), t.force.normal, t.force.stiffness, along, damping(t, motion));
+    }
+  }
   /// Makes what the rates have come to since the last time the system's; the state evaluated is the present.
   void commit(System& system, const double* changes);
   static constexpr std::size_t rates_of_pair = 3;
@@ -84,6 +98,15 @@ class Contact {
   template <class Size>
   Vector rub(const Touch& touch, const Vector& sliding, const Size& size_of, double& power) const;
   void push(System& system, const Touch& touch, const Vector& friction) const;
+  Vector sliding(const Touch& touch, std::span<const ParticleMotion> motion) const;
+  double damping(const Touch& touch, std::span<const ParticleMotion> motion) const;
+  CarrierPair carriers_of(std::size_t pair, std::uint32_t a, std::uint32_t b) const {
+    return {pairs_[pair].a, carrier_[a], pairs_[pair].b, carrier_[b]};
+  }
+  std::span<const PlacedPatch> patches_of(std::size_t body) const {
+    return std::span(placed_).subspan(first_[body], first_[body + 1] - first_[body]);
+  }
+  double reach(const BodyPair& pair) const;
 
   std::vector<BodyPair> pairs_;
   std::vector<ContactHistory> history_;  // by pair

@@ -19,10 +19,11 @@ struct PairForce {
   Vector force{};         ///< N, on b; that on a is the opposite
   double couple_a = 0.0;  ///< N m, counter-clockwise, beyond that of the force at the patch's middle
   double couple_b = 0.0;
-  double pressure = 0.0;  ///< N, of the force along the normal, >= 0: what friction is in proportion to
-  Vector normal{};        ///< from a to b
-  double gap = 0.0;       ///< m, negative: penetration
-  double overlap = 0.0;   ///< share of the patches that lies opposite each other, 0 to 1
+  double stiffness = 0.0;  ///< N/m, d2U/dg2 where it is positive
+  double pressure = 0.0;   ///< N, of the force along the normal, >= 0: what friction is in proportion to
+  Vector normal{};         ///< from a to b
+  double gap = 0.0;        ///< m, negative: penetration
+  double overlap = 0.0;    ///< share of the patches that lies opposite each other, 0 to 1
 };
 
 /// 1 at 0, 0 from 1 on, smooth, and one with its mirror image: hats at the distance of patches sum to 1.
@@ -38,15 +39,15 @@ struct Hat {
 /// the depth; from there the pressure falls, to 0 at the whole depth, where what has come so far is let
 /// through.
 struct Barrier {
-  double value = 0.0, slope = 0.0;
+  double value = 0.0, slope = 0.0, curvature = 0.0;
   explicit Barrier(double p) {
     if (p <= 0.0 || p >= 2.0) return;
     if (p <= 0.5)
-      value = 0.5 * p * p, slope = p;
+      value = 0.5 * p * p, slope = p, curvature = 1.0;
     else if (p < 1.5)
-      value = 0.25 - 0.5 * (1.0 - p) * (1.0 - p), slope = 1.0 - p;
+      value = 0.25 - 0.5 * (1.0 - p) * (1.0 - p), slope = 1.0 - p, curvature = -1.0;
     else
-      value = 0.5 * (2.0 - p) * (2.0 - p), slope = p - 2.0;
+      value = 0.5 * (2.0 - p) * (2.0 - p), slope = p - 2.0, curvature = 1.0;
   }
 };
 
@@ -85,6 +86,7 @@ inline PairForce pair_force(const PlacedPatch& a, const PlacedPatch& b, const Pa
   for (std::size_t c = 0; c < 2; ++c) f.force[c] = -(by_gap * n[c] + by_offset * along[c]);
   f.couple_a = -(by_facing + by_turn), f.couple_b = by_facing - by_turn;
   f.pressure = std::max(0.0, -by_gap);
+  f.stiffness = std::max(0.0, law.stiffness * area * facing * overlap.value * barrier.curvature);
   return f;
 }
 

@@ -26,6 +26,11 @@ struct Patch {
   double ring;  ///< area of a ring per length and radian: the radius at the start, m; 1 in plane strain
 };
 
+/// The particles that carry two patches of different bodies.
+struct CarrierPair {
+  std::size_t body_a, particle_a, body_b, particle_b;
+};
+
 /// A patch where its carrier has taken it.
 struct PlacedPatch {
   Vector place;   ///< m
