@@ -20,10 +20,15 @@ double friction_between(const Scene& scene, std::size_t a, std::size_t b) {
   return scene.contact.friction;
 }
 
+/// Whether cracks may open faces.
+bool may_break(const Body& body) {
+  return body.material->column("decohesion").has_value();
+}
+
 /// rho c^2, Pa: pressure per strain in a plane wave.
 double wave_modulus(const Body& body) {
   const double c = body.material->wave_speed();
-  return body.material->parameters().elastic.density * c * c;
+  return body.material->density() * c * c;
 }
 
 /// The pressure of a penetration by one cell is that of two materials in series strained by 2 over it.
@@ -66,7 +71,8 @@ void build_contact(const Scene& scene, System& system) {
           {a,
            b,
            {stiffness_between(scene, system.bodies[a], system.bodies[b]), scene.contact.depth * scene.cell},
-           friction_between(scene, a, b)});
+           friction_between(scene, a, b),
+           may_break(system.bodies[a]) || may_break(system.bodies[b])});
   }
   for (const mpm::BodyPair& pair : pairs) require_finite(scene, pair.friction);
   system.contact =

@@ -14,6 +14,7 @@ struct BodyPair {
   std::size_t a, b;  ///< a < b
   PairStiffness law;
   double friction;  ///< Coulomb's coefficient; infinite: they stick
+  bool may_break;   ///< cracks may open faces that no patch stands for
 };
 
 /// Where the particles of a body are that patches are placed with: columns, as those of Particles.
@@ -70,7 +71,8 @@ class Contact {
   void linearise(std::span<const ParticleMotion> motion, Add&& add) const {
     for (const Touch& t : touches_) {
       const Vector along{-t.force.normal[1], t.force.normal[0]};
-      add(carriers_of(t.pair, t.a, t.b), t.force.normal, t.force.stiffness, along, damping(t, motion));
+      add(carriers_of(t.pair, t.carrier_a, t.carrier_b), t.force.normal, t.force.stiffness, along,
+          damping(t, motion));
     }
   }
   /// Makes what the rates have come to since the last time the system's; the state evaluated is the present.
@@ -86,14 +88,21 @@ class Contact {
   bool restore(std::span<const double> state);
 
  private:
+  static constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
   struct Touch {
-    std::size_t pair;    ///< of bodies
-    std::uint32_t a, b;  ///< patches, counted over all bodies
+    std::size_t pair;                    ///< of bodies
+    std::uint32_t carrier_a, carrier_b;  ///< identities of the particles
+    std::uint32_t patch_a, patch_b;      ///< counted over all bodies; none: the particles themselves touch
+    Vector arm_a, arm_b;                 ///< m, from the particles to their patches
+    Vector half;  ///< m, from a's patch to the middle between both, where friction acts
     PairForce force;
   };
+  void find_deep_particles(const System& system);
   void find_carriers(const System& system);
   void place_patches(const System& system, std::span<const Configuration> bodies);
-  void find_touches();
+  void find_touches(const System& system, std::span<const Configuration> bodies);
+  void find_touches_of_particles(const System& system, std::span<const Configuration> bodies,
+                                 std::size_t pair);
   void note_state(System& system);
   template <class Size>
   Vector rub(const Touch& touch, const Vector& sliding, const Size& size_of, double& power) const;
@@ -101,23 +110,29 @@ class Contact {
   Vector sliding(const Touch& touch, std::span<const ParticleMotion> motion) const;
   double damping(const Touch& touch, std::span<const ParticleMotion> motion) const;
   CarrierPair carriers_of(std::size_t pair, std::uint32_t a, std::uint32_t b) const {
-    return {pairs_[pair].a, carrier_[a], pairs_[pair].b, carrier_[b]};
+    return {pairs_[pair].a, place_[pairs_[pair].a][a], pairs_[pair].b, place_[pairs_[pair].b][b]};
   }
   std::span<const PlacedPatch> patches_of(std::size_t body) const {
     return std::span(placed_).subspan(first_[body], first_[body + 1] - first_[body]);
+  }
+  std::span<const Vector> places_of(std::size_t body) const {
+    return std::span(places_).subspan(first_[body], first_[body + 1] - first_[body]);
   }
   double reach(const BodyPair& pair) const;
 
   std::vector<BodyPair> pairs_;
   std::vector<ContactHistory> history_;  // by pair
   double slip_speed_;
-  std::vector<Patch> patches_;          // of all bodies
-  std::vector<std::size_t> first_;      // of each body's patches, and their number
-  std::vector<std::uint32_t> carrier_;  // by patch: place of its particle in the columns
-  std::size_t sorted_ = 0;              // Grid::times_sorted when carriers were found
-  bool found_ = false;                  // carriers are
-  bool evaluated_ = false;              // touches are those of the particles' present places
+  std::vector<Patch> patches_;                     // of all bodies
+  std::vector<std::size_t> first_;                 // of each body's patches, and their number
+  std::vector<std::vector<std::uint32_t>> place_;  // by body and identity: in the columns
+  std::vector<std::vector<bool>> deep_;            // by body and identity: no patch was near it at the start
+  std::size_t sorted_ = 0;                         // Grid::times_sorted when carriers were found
+  bool found_ = false;                             // carriers are
+  bool evaluated_ = false;                         // touches are those of the particles' present places
   std::vector<PlacedPatch> placed_, before_;
+  std::vector<Vector> places_;                        // of patches
+  std::vector<std::vector<Vector>> particle_places_;  // by body and identity, where cracks may open
   std::vector<double> mirrored_, mirrored_before_;
   std::vector<Vector> velocity_;  // m/s, by patch, in the last step
   std::vector<Touch> touches_;

@@ -90,4 +90,22 @@ inline PairForce pair_force(const PlacedPatch& a, const PlacedPatch& b, const Pa
   return f;
 }
 
+/// The same between two particles that no patch stands for: circles of half a particle's side, as faces are
+/// that cracks have opened.
+inline PairForce pair_force(const Vector& a, const Vector& b, double distance, double area,
+                            const PairStiffness& law) {
+  PairForce f;
+  const Vector d{b[0] - a[0], b[1] - a[1]};
+  const double size = std::hypot(d[0], d[1]);
+  if (!(size > 0.0)) return f;
+  f.normal = {d[0] / size, d[1] / size}, f.gap = size - distance, f.overlap = 1.0;
+  const Barrier barrier(-f.gap / law.depth);
+  f.energy = law.stiffness * area * law.depth * law.depth * barrier.value;
+  f.pressure = std::max(0.0, law.stiffness * area * law.depth * barrier.slope);
+  f.stiffness = std::max(0.0, law.stiffness * area * barrier.curvature);
+  for (std::size_t c = 0; c < 2; ++c)
+    f.force[c] = law.stiffness * area * law.depth * barrier.slope * f.normal[c];
+  return f;
+}
+
 }  // namespace vitrum::mpm

@@ -15,12 +15,11 @@ struct Bounds {
   }
 };
 
-Bounds bounds_of(std::span<const PlacedPatch> patches) {
+Bounds bounds_of(std::span<const Vector> places) {
   Bounds bounds;
-  for (const PlacedPatch& p : patches)
+  for (const Vector& x : places)
     for (std::size_t c = 0; c < 2; ++c)
-      bounds.min[c] = std::min(bounds.min[c], p.place[c]),
-      bounds.max[c] = std::max(bounds.max[c], p.place[c]);
+      bounds.min[c] = std::min(bounds.min[c], x[c]), bounds.max[c] = std::max(bounds.max[c], x[c]);
   return bounds;
 }
 
@@ -34,15 +33,15 @@ Bounds common(const Bounds& a, const Bounds& b, double reach) {
 
 }  // namespace
 
-void PairSearch::list(std::span<const PlacedPatch> a, std::span<const PlacedPatch> b, double reach) {
+void PairSearch::list(std::span<const Vector> a, std::span<const Vector> b, double reach) {
   pairs_.clear();
   const Bounds both = common(bounds_of(a), bounds_of(b), reach);
   if (!(both.min[0] <= both.max[0] && both.min[1] <= both.max[1])) return;
   const std::size_t axis = both.max[0] - both.min[0] >= both.max[1] - both.min[1] ? 0 : 1, other = 1 - axis;
-  const auto list_inside = [&](std::span<const PlacedPatch> patches, auto& inside) {
+  const auto list_inside = [&](std::span<const Vector> places, auto& inside) {
     inside.clear();
-    for (std::uint32_t i = 0; i < patches.size(); ++i)
-      if (both.contain(patches[i].place)) inside.emplace_back(patches[i].place[axis], i);
+    for (std::uint32_t i = 0; i < places.size(); ++i)
+      if (both.contain(places[i])) inside.emplace_back(places[i][axis], i);
     std::sort(inside.begin(), inside.end());
   };
   list_inside(a, in_a_), list_inside(b, in_b_);
@@ -50,8 +49,7 @@ void PairSearch::list(std::span<const PlacedPatch> a, std::span<const PlacedPatc
   for (const auto& [place, i] : in_a_) {
     while (first != in_b_.end() && first->first < place - reach) ++first;
     for (auto next = first; next != in_b_.end() && next->first <= place + reach; ++next)
-      if (std::abs(b[next->second].place[other] - a[i].place[other]) <= reach)
-        pairs_.emplace_back(i, next->second);
+      if (std::abs(b[next->second][other] - a[i][other]) <= reach) pairs_.emplace_back(i, next->second);
   }
   std::sort(pairs_.begin(), pairs_.end());
 }

@@ -56,6 +56,26 @@ TEST_CASE("Forces and couples of a pair are the derivatives of its energy, and m
   CHECK(touching > 500);
 }
 
+TEST_CASE("Particles that cracks have laid open push each other apart, by the derivative of their energy",
+          "[contact]") {
+  Random random(17);
+  for (int n = 0; n < 500; ++n) {
+    const Vector a{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)},
+        b{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)};
+    const PairForce f = pair_force(a, b, 0.8, 0.5, law);
+    for (std::size_t c = 0; c < 2; ++c) {
+      constexpr double step = 1e-6;
+      Vector low = b, high = b;
+      low[c] -= step, high[c] += step;
+      CHECK(-f.force[c] ==
+            Approx((pair_force(a, high, 0.8, 0.5, law).energy - pair_force(a, low, 0.8, 0.5, law).energy) /
+                   (2.0 * step))
+                .margin(1e-5));
+    }
+  }
+  CHECK(pair_force({0.0, 0.0}, {0.81, 0.0}, 0.8, 0.5, law).energy == 0.0);
+}
+
 TEST_CASE("Forces of a pair change by no more than a bound times what patches are moved by", "[contact]") {
   Random random(5);
   for (int n = 0; n < 20000; ++n) {
@@ -91,19 +111,18 @@ TEST_CASE("The search finds the pairs that are near, in their order", "[contact]
   Random random(3);
   PairSearch search;
   for (int n = 0; n < 40; ++n) {
-    const auto patches = [&](std::size_t count, double from) {
-      std::vector<PlacedPatch> list(count);
-      for (PlacedPatch& p : list)
-        p.place = {from + random.uniform(0.0, 3.0), random.uniform(0.0, n % 2 == 0 ? 1.0 : 9.0)};
+    const auto places = [&](std::size_t count, double from) {
+      std::vector<Vector> list(count);
+      for (Vector& place : list)
+        place = {from + random.uniform(0.0, 3.0), random.uniform(0.0, n % 2 == 0 ? 1.0 : 9.0)};
       return list;
     };
-    const std::vector<PlacedPatch> a = patches(60, 0.0), b = patches(80, random.uniform(-4.0, 4.0));
+    const std::vector<Vector> a = places(60, 0.0), b = places(80, random.uniform(-4.0, 4.0));
     constexpr double reach = 0.4;
     std::vector<std::array<std::size_t, 2>> near, found;
     for (std::size_t i = 0; i < a.size(); ++i)
       for (std::size_t j = 0; j < b.size(); ++j)
-        if (std::abs(a[i].place[0] - b[j].place[0]) <= reach &&
-            std::abs(a[i].place[1] - b[j].place[1]) <= reach)
+        if (std::abs(a[i][0] - b[j][0]) <= reach && std::abs(a[i][1] - b[j][1]) <= reach)
           near.push_back({i, j});
     search.find(a, b, reach, [&](std::uint32_t i, std::uint32_t j) { found.push_back({i, j}); });
     CHECK(found == near);
