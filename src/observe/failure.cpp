@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "materials/root.hpp"
@@ -60,8 +61,9 @@ FailedParticles failed_particles(const Body& body) {
 
 namespace {
 
-/// Counts, fronts and openings of a body; `first_*` are left to the caller.
-FailureMeasures measure(const Body& body) {
+/// Counts, areas, fronts and openings of a body; `first_*` are left to the caller. whole: how much of the
+/// body a particle's mass counts for (2 pi in axisymmetric scenes).
+FailureMeasures measure(const Body& body, double whole) {
   FailureMeasures m;
   const FailedParticles failed = failed_particles(body);
   m.localised = failed.localised, m.separated = failed.separated;
@@ -72,6 +74,8 @@ FailureMeasures measure(const Body& body) {
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
     const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
+    const double volume = whole * p.mass[i] / body.material->density();
+    m.localised_volume += volume, m.crack_area += volume / length[i];
     raise(m.localised_radius_max, radius);
     if (!m.max_opening || opening > *m.max_opening) m.max_opening = opening, m.max_opening_radius = radius;
   }
@@ -90,6 +94,7 @@ void merge(FailureMeasures& all, const FailureMeasures& one) {
     if (one.*first && (!(all.*first) || (one.*first)->time < (all.*first)->time)) all.*first = one.*first;
   all.localised += one.localised;
   all.separated += one.separated;
+  all.crack_area += one.crack_area, all.localised_volume += one.localised_volume;
   // An empty optional is less than any value.
   all.localised_radius_max = std::max(all.localised_radius_max, one.localised_radius_max);
   all.damage_front_radius = std::max(all.damage_front_radius, one.damage_front_radius);
@@ -203,6 +208,10 @@ void FailureAnalysis::declare(const System& system, std::vector<Quantity>& quant
   const FailureReport f = report(system, false);
   const Quantity own[] = {{"localised", "1", "localised particles", static_cast<double>(f.localised)},
                           {"separated", "1", "separated particles", static_cast<double>(f.separated)},
+                          {"crack_area", system.axisymmetric ? "m^2" : "m",
+                           "area of cracks, localised or separated: sum of V0/L_e", f.crack_area},
+                          {"localised_volume", system.axisymmetric ? "m^3" : "m^2",
+                           "volume of the localised particles", f.localised_volume},
                           {"localised_radius_max", "m", "largest r (|x|) of a localised particle; NaN: none",
                            f.localised_radius_max.value_or(none)},
                           {"damage_front_radius", "m", "largest r (|x|) with damage above 0.1; NaN: none",
@@ -213,8 +222,9 @@ void FailureAnalysis::declare(const System& system, std::vector<Quantity>& quant
 
 FailureReport FailureAnalysis::report(const System& system, bool with_fragments) const {
   FailureReport r;
+  const double whole = system.axisymmetric ? 2.0 * std::numbers::pi : 1.0;
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
-    FailureMeasures m = measure(system.bodies[n]);
+    FailureMeasures m = measure(system.bodies[n], whole);
     m.first_damage = memory_[n].damage;
     m.first_localisation = memory_[n].localisation;
     m.first_separation = memory_[n].separation;

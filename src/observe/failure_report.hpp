@@ -31,7 +31,9 @@ struct FailureMeasures {
   std::optional<FirstEvent> first_damage;  ///< damage D passes 0.001
   std::optional<FirstEvent> first_localisation;
   std::optional<FirstEvent> first_separation;
-  std::size_t localised = 0, separated = 0;    ///< particles, at the end
+  std::size_t localised = 0, separated = 0;  ///< particles, at the end
+  double crack_area = 0.0;        ///< m^2 (plane strain: per metre, m), sum of V0/L_e of the localised
+  double localised_volume = 0.0;  ///< m^3 (m^2), sum of their V0
   std::optional<double> localised_radius_max;  ///< m, largest r (|x| in plane strain) of a localised particle
   std::optional<double> damage_front_radius;   ///< m, largest r with D > 0.1
   std::optional<double> max_opening;           ///< m, largest norm of the opening

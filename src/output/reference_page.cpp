@@ -171,6 +171,7 @@ constexpr std::string_view after_tables = R"(
 | `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `contact` (stored between bodies), `friction` (dissipated between them), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
 | `failure.first_damage`, `.first_localisation`, `.first_separation` | {`time`, `r`, `z`, `body`} |
 | `failure.localised`, `.separated` | particles at the end |
+| `failure.crack_area`, `.localised_volume` | m^2, m^3 (plane strain: per metre); sum over the localised particles of V0/L_e, and of V0. The area is what has a limit as cells shrink: cracks are a cell wide |
 | `failure.damage_threshold` | the damage D that `first_damage` waits for |
 | `failure.localised_radius_max`, `.damage_front_radius` | m; largest r of a localised particle, of a particle with D > 0.1 |
 | `failure.max_opening`, `.max_opening_radius` | m |

@@ -119,6 +119,8 @@ void add_measures(Json& block, const FailureMeasures& measures) {
   block["first_separation"] = first_event(measures.first_separation);
   block["localised"] = measures.localised;
   block["separated"] = measures.separated;
+  block["crack_area"] = number(measures.crack_area);
+  block["localised_volume"] = number(measures.localised_volume);
   block["localised_radius_max"] = number(measures.localised_radius_max);
   block["damage_front_radius"] = number(measures.damage_front_radius);
   block["max_opening"] = number(measures.max_opening);

@@ -26,7 +26,7 @@ interface = {
     "energy": dict.fromkeys(("initial", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "external", "residual",
                              "relative_residual", "max_growth"), number),
     "failure": {"first_damage": first, "first_localisation": first, "first_separation": first, "localised": integer,
-                "separated": integer, "localised_radius_max": number, "damage_front_radius": number, "max_opening": number,
+                "separated": integer, "crack_area": number, "localised_volume": number, "localised_radius_max": number, "damage_front_radius": number, "max_opening": number,
                 "max_opening_radius": number, "perforated": boolean, "fragments": {"count": integer, "largest_mass": number}},
     "bodies": {"plate": body, "cylinder": body},
     "provenance": dict.fromkeys(("version", "git", "command", "sundials", "compiler", "host", "started", "scene_sha256"), text),
@@ -64,6 +64,7 @@ class Summary(CommandLineTest):
         for count in ("localised", "separated"):
             self.assertEqual(sum(b[count] for b in bodies), failure[count])
         self.assertLessEqual(failure["separated"], failure["localised"])
+        self.assertGreater(failure["crack_area"], failure["localised_volume"] / 1e-3)  # L_e is at most the cell
         self.assertLessEqual(failure["first_localisation"]["time"], failure["first_separation"]["time"])
         self.assertGreater(failure["fragments"]["count"], 0)
 
@@ -73,7 +74,7 @@ class Summary(CommandLineTest):
         for key in ("first_damage", "first_localisation", "first_separation", "localised_radius_max", "damage_front_radius",
                     "max_opening", "max_opening_radius", "perforated"):
             self.assertIsNone(failure[key], key)
-        self.assertEqual((failure["localised"], failure["separated"]), (0, 0))
+        self.assertEqual([failure[key] for key in ("localised", "separated", "crack_area", "localised_volume")], [0, 0, 0, 0])
 
     def test_a_projectile_through_a_target_of_which_nothing_is_left(self):
         failure = read_summary(self.run_scene("out", "--no-fields", scene=pulverised))["failure"]

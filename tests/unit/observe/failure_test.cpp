@@ -118,6 +118,10 @@ TEST_CASE("First events are the earliest inside their steps, and the fronts the 
   CHECK(r.first_damage->r == 12.5);
   CHECK(r.localised == 2);
   CHECK(r.separated == 1);
+  const Particles& p = run.particles();
+  const double volume = 2.0 * std::numbers::pi * (p.mass[12] + p.mass[17]);  // density 1
+  CHECK(r.localised_volume == Approx(volume).epsilon(1e-14));
+  CHECK(r.crack_area == Approx(volume).epsilon(1e-14));  // L_e = 1
   CHECK(*r.localised_radius_max == 17.5);
   CHECK(*r.damage_front_radius == 15.5);  // D passes 0.1 at 0.4, not at 0.01
   CHECK(*r.max_opening == Approx(5e-6));
