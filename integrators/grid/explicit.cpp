@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mpm/carried.hpp"
+#include "mpm/centroids.hpp"
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
@@ -27,6 +28,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
   system.record.external_work = mpm::carry_held(system).work;
+  mpm::find_centroids(system);
   if (system.contact) system.contact->begin_step(system, duration);
   mpm::StressUpdate stress(system, duration);
   const auto scatter = [&](Scatter what) {

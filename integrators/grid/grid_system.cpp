@@ -10,6 +10,7 @@
 #include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/carried.hpp"
+#include "mpm/centroids.hpp"
 #include "mpm/stress.hpp"
 
 namespace vitrum {
@@ -53,6 +54,7 @@ void GridSystem::begin_phase() {
   system_.grid.move_boundaries(system_.time);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
   carried_work_ = mpm::carry_held(system_).work;
+  mpm::find_centroids(system_);
   mpm::scatter(system_, mpm::Scatter::momentum);
   mpm::project_velocities(system_);
   mpm::number_unknowns(system_, nodes_);
@@ -327,6 +329,8 @@ double GridSystem::end_phase(const double* y) {
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
   for (std::size_t body = 0; body < motions_.size(); ++body)
     system_.bodies[body].particles.turn = motions_[body].turn;
+  for (std::size_t body = 0; system_.between_centroids && body < system_.bodies.size(); ++body)
+    system_.bodies[body].particles.spin_increment = deformations_[body].committed_turn;  // particles turn so
   mpm::fill_field(system_, nodes_, y, committed_time_ - start_time_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::position, 1.0);
   system_.record.particles_moved = true;

@@ -10,6 +10,7 @@
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
 #include "mpm/carried.hpp"
+#include "mpm/centroids.hpp"
 #include "mpm/contact/contact.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
@@ -176,6 +177,7 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   const mpm::Trial::Scope scope(system_, trial_);
   load(y);
   mpm::refresh_grid_for_positions(system_);
+  mpm::find_centroids(system_);
   try_stress(t, set_increments(y));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
     for (const std::size_t i : mirrored_[n]) {

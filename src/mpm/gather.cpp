@@ -49,12 +49,19 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
       const ColumnReader r(chunk, p.position[0]), z(chunk, p.position[1]);
       const Stencils<kind> stencils(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
       at.gather(stencils, chunk.size(), nodes);
+      if constexpr (P::gradient)
+        if (!p.centroids[0].empty()) at.take_between_centroids(chunk, p);
       if constexpr (P::gradient && !P::strain) store_gradient<axisymmetric>(chunk, targets[n], at, r, cell);
       if constexpr (P::rates)
         for (std::size_t c = 0; c < 2; ++c) {
           ColumnWriter x(chunk, targets[n].position[c]), v(chunk, targets[n].velocity[c]);
           for (std::size_t k = 0; k < chunk.size(); ++k)
             x[k] = at.values()[P::width * k + c], v[k] = at.values()[P::width * k + 2 + c];
+          if (!p.centroids[0].empty()) {  // as fixed to the interpolated centroids
+            const ColumnReader across(chunk, p.from_centroids[1 - c]);
+            const double sign = c == 0 ? -1.0 : 1.0;
+            for (std::size_t k = 0; k < chunk.size(); ++k) x[k] += sign * at.spin(k, cell) * across[k];
+          }
         }
       if constexpr (P::strain) {
         if (stress != nullptr)
@@ -64,6 +71,8 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
       }
       if constexpr (P::velocity) kinetic += store_velocity(chunk, p, at);
       if constexpr (P::rescatter) add_momenta(chunk, p, stencils, momenta);
+      if constexpr (P::position)
+        if (!p.centroids[0].empty()) at.turn_about_centroids(chunk, p, duration);
       if constexpr (P::position) left |= store_position<axisymmetric>(chunk, p, at, r, z, cells, duration);
     });
   }

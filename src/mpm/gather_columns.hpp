@@ -76,6 +76,10 @@ void strain_and_stress(const Chunk& chunk, Particles& p, std::size_t tile, std::
   stress.take(tile, body, chunk, increments);
   if (!p.turn.empty())
     for (std::size_t k = 0; k < chunk.size(); ++k) p.turn[chunk.place(k)] += increments.spin[k];
+  if (!p.centroids[0].empty()) {
+    ColumnWriter spin(chunk, p.spin_increment);
+    std::copy_n(increments.spin, chunk.size(), spin.data());
+  }
 }
 
 /// Adds the interpolated change to the velocities; returns the kinetic energy of the chunk then.

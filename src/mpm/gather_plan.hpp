@@ -1,5 +1,6 @@
 #pragma once
 #include "mpm/axis.hpp"
+#include "mpm/between_centroids.hpp"
 #include "mpm/chunk.hpp"
 #include "mpm/pack.hpp"
 #include "mpm/tile.hpp"
@@ -93,13 +94,55 @@ class Interpolated {
     }
   }
 
+  /// Makes the plan's gradient one between centroids, for plans with a gradient.
+  void take_between_centroids(const Chunk& chunk, const Particles& p) {
+    const ColumnReader rr(chunk, p.centroids[0]), rz(chunk, p.centroids[1]), zr(chunk, p.centroids[2]),
+        zz(chunk, p.centroids[3]);
+    const double *h0 = rr.data(), *h1 = rz.data(), *h2 = zr.data(), *h3 = zz.data();
+    double *r = reinterpret_cast<double*>(r_) + P::gradient_of,
+           *z = reinterpret_cast<double*>(z_) + P::gradient_of;
+    const std::size_t size = chunk.size();
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t n = P::width * k;
+      const auto l =
+          BetweenCentroids({h0[k], h1[k], h2[k], h3[k]}).gradient({r[n], z[n], r[n + 1], z[n + 1]});
+      r[n] = l[0], z[n] = l[1], r[n + 1] = l[2], z[n + 1] = l[3];
+    }
+  }
+
+  /// Adds to what moves the particles (plans that do, m/s) their last spin increment's turn about the
+  /// interpolated centroids, which is what the interpolated velocities are of.
+  void turn_about_centroids(const Chunk& chunk, const Particles& p, double duration) {
+    const ColumnReader from_r(chunk, p.from_centroids[0]), from_z(chunk, p.from_centroids[1]),
+        spin(chunk, p.spin_increment);
+    double* velocity = reinterpret_cast<double*>(value_) + P::width - 2;
+    for (std::size_t k = 0; k < chunk.size(); ++k) {
+      const Rotation turn = rotation_by(spin[k]);
+      velocity[P::width * k] += ((turn.cosine - 1.0) * from_r[k] - turn.sine * from_z[k]) / duration;
+      velocity[P::width * k + 1] += (turn.sine * from_r[k] + (turn.cosine - 1.0) * from_z[k]) / duration;
+    }
+  }
+  /// Spin of the k-th particle, rad/s, for plans with a gradient.
+  double spin(std::size_t k, double cell) const {
+    return 0.5 * (along_r()[P::width * k + 1] - along_z()[P::width * k]) / cell;
+  }
+
   /// Component `place` of the k-th pack is at [width k + place].
-  const double* values() const { return reinterpret_cast<const double*>(value_); }
+  const double* values() const {
+    return reinterpret_cast<const double*>(value_);
+  }
   /// The same for the plan's gradient: h d/dr and h d/dz of a vector's components 0 and 1; and the vector
   /// itself.
-  const double* along_r() const { return reinterpret_cast<const double*>(r_) + P::gradient_of; }
-  const double* along_z() const { return reinterpret_cast<const double*>(z_) + P::gradient_of; }
-  const double* differentiated() const { return values() + P::gradient_of; }
+  const double* along_r() const {
+    return reinterpret_cast<const double*>(r_) + P::gradient_of;
+  }
+  const double* along_z() const {
+    return reinterpret_cast<const double*>(z_) + P::gradient_of;
+  }
+  const double* differentiated() const {
+    return values() + P::gradient_of;
+  }
 
  private:
   Pack<P::width> value_[Chunk::capacity];

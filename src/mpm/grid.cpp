@@ -140,15 +140,26 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
   for (const Block& b : blocks_) lines.push_back(by_row ? b.row : b.column);
   strips_.set(lines, tile_block_.size());
   mark_constraints();
+  make_room();
+}
+
+/// Room for the nodes' values of the fields that are wanted.
+void Grid::make_room() {
   for (std::size_t field = 0; field < field_count; ++field)
-    if (keeps_sums_ || field < moved_field_count ||
-        (!boundaries_.empty() && field >= static_cast<std::size_t>(Field::force_0)))
+    if (field < first_sum ||
+        (field >= first_centroid ? keeps_centroids_
+                                 : keeps_sums_ || (field >= first_force && !boundaries_.empty())))
       fields_[field].resize(blocks_.size() * block_nodes);
 }
 
 void Grid::keep_sums() {
   keeps_sums_ = true;
-  for (std::vector<double>& field : fields_) field.resize(blocks_.size() * block_nodes);
+  make_room();
+}
+
+void Grid::keep_centroids() {
+  keeps_centroids_ = true;
+  make_room();
 }
 
 void Grid::provide_tile_data(std::size_t strips) {

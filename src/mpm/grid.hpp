@@ -50,11 +50,14 @@ enum class Field : std::size_t {
   momentum_1,
   force_0,  ///< and these, also where boundaries push
   force_1,
+  centroid_0,  ///< of what a node has collected, cells from the node; only on demand (Grid::keep_centroids)
+  centroid_1,
   // Rates have no new velocities: accelerations (m/s^2) take their place.
   acceleration_0 = new_velocity_0,
   acceleration_1 = new_velocity_1,
 };
-inline constexpr std::size_t field_count = 9, moved_field_count = 5;  // of these, without the sums
+inline constexpr std::size_t field_count = 11;
+inline constexpr std::size_t first_sum = 5, first_force = 7, first_centroid = 9;  // of these
 
 /// A square of block_side x block_side nodes (and the cells to their upper right) of one velocity field.
 /// Bodies of different fields share no node, wherever they are.
@@ -180,6 +183,8 @@ class Grid {
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
   /// Has room for momenta and forces from now on.
   void keep_sums();
+  /// Has room for centroids from now on.
+  void keep_centroids();
   /// The data of a tile. Tiles may share it that a sweep does not need at a time (provide_tile_data).
   TileData& tile_data(std::size_t tile) { return tile_data_[tile_place_[tile]]; }
   /// Room for those tiles of each thread that lie in so many strips one after the other; once the tiles as
@@ -275,6 +280,7 @@ class Grid {
   void list_images_of(const Block& block, std::size_t boundary, std::size_t component, int side);
   void find_carrying_tiles();
   static std::size_t scattered_in(Range list);
+  void make_room();
 
   void find_movers(std::size_t tile, const std::vector<Body>& bodies);
   std::int32_t tile_of(const BlockKey& key) const;
@@ -319,7 +325,7 @@ class Grid {
   bool mirrors_ = false;                  // some image is that of a boundary
   std::vector<ImageSums> image_sums_;     // by image
   std::vector<bool> carries_;             // by tile
-  bool keeps_sums_ = false;
+  bool keeps_sums_ = false, keeps_centroids_ = false;
   std::vector<TileData> tile_data_;
   std::vector<std::uint32_t> tile_place_;  // of each tile, in tile_data_
 };

@@ -39,6 +39,12 @@ struct Particles {
   /// Force of contact, N (per radian or per metre), and couple, N m; empty where the body touches nothing.
   std::array<std::vector<double>, 3> contact_force;
 
+  /// Gradient of the centroids of what nodes collect (mpm/centroids.hpp), (rr, rz, zr, zz), for the particles
+  /// where they are; empty: gradients are taken between nodes.
+  std::array<std::vector<double>, 4> centroids;
+  /// The way from where the interpolated centroids are to the particle, m; empty as they are.
+  std::array<std::vector<double>, 2> from_centroids;
+
   /// Has room for the variables of a material from now on, at 0.
   void keep_variables(std::span<const Component> columns) {
     variables.assign(columns.size(), std::vector<double>(size, 0.0));

@@ -2,6 +2,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mpm/between_centroids.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/stencil.hpp"
 #include "mpm/transfer.hpp"
@@ -91,6 +92,7 @@ class Contributions {
         share[2 * width] = pull * rz[k], share[2 * width + 1] = pull * zz[k];
       }
       if (!p.contact_force[0].empty()) add_contact(chunk, p, per_cell);
+      if (!p.centroids[0].empty()) act_between_centroids(chunk, p);
     }
     if constexpr (P::momentum) {
       const double *from0 = v0.data(), *from1 = v1.data();
@@ -117,8 +119,24 @@ class Contributions {
       const std::size_t i = chunk.place(k);
       double* share = values_[k] + first;
       share[0] += p.contact_force[0][i], share[1] += p.contact_force[1][i];
-      const double twist = 0.5 * per_cell * p.contact_force[2][i];
+      double couple = p.contact_force[2][i];
+      if (!p.centroids[0].empty())  // the particle moves as fixed to the interpolated centroids
+        couple +=
+            p.from_centroids[0][i] * p.contact_force[1][i] - p.from_centroids[1][i] * p.contact_force[0][i];
+      const double twist = 0.5 * per_cell * couple;
       share[width + 1] += twist, share[2 * width] -= twist;
+    }
+  }
+
+  /// Forces whose power on the nodes' velocities is that of stress on the gradient between centroids.
+  void act_between_centroids(const Chunk& chunk, const Particles& p) {
+    const ColumnReader rr(chunk, p.centroids[0]), rz(chunk, p.centroids[1]), zr(chunk, p.centroids[2]),
+        zz(chunk, p.centroids[3]);
+    constexpr std::size_t width = P::width;
+    for (std::size_t k = 0; k < chunk.size(); ++k) {
+      double *r = values_[k] + width + (P::momentum ? 2 : 0), *z = r + width;
+      const auto q = BetweenCentroids({rr[k], rz[k], zr[k], zz[k]}).stress({r[0], z[0], r[1], z[1]});
+      r[0] = q[0], z[0] = q[1], r[1] = q[2], z[1] = q[3];
     }
   }
 

@@ -1,7 +1,9 @@
 #include "mpm/stiffness.hpp"
 
 #include <algorithm>
+#include <optional>
 
+#include "mpm/between_centroids.hpp"
 #include "mpm/finite_strain.hpp"
 #include "mpm/tile.hpp"
 
@@ -183,14 +185,21 @@ void Stiffness::assemble(const System& system, const NodalUnknowns& unknowns,
       const double volume = p.mass[i] / system.bodies[n].material->density();
       const TangentEntries& T = tangents[n][i];
       const double hoop = axisymmetric ? 1.0 / hoop_radius(p.position[0][i], grid.cell()) : 0.0;
+      std::optional<BetweenCentroids> H;
+      if (const auto& h = p.centroids; !h[0].empty())
+        H.emplace(BetweenCentroids::Matrix{h[0][i], h[1][i], h[2][i], h[3][i]});
       // Columns of B: the strain that a unit displacement of a component makes; and of V T B, both shears
       // counted.
       constexpr std::size_t count = std::tuple_size_v<std::remove_cvref_t<decltype(stencil)>>;
       std::array<std::array<double, 4>, 2 * count> B{}, TB{};
       for (std::size_t a = 0; a < count; ++a) {
         const StencilNode& s = stencil[a];
-        const SymmetricTensor r = deformation.change({s.slope_r, s.slope_z, 0.0, 0.0, s.value * hoop}),
-                              z = deformation.change({0.0, 0.0, s.slope_r, s.slope_z, 0.0});
+        const auto change = [&](const std::array<double, 4>& plain, double tt) {
+          const auto [rr, rz, zr, zz] = H ? H->gradient(plain) : plain;
+          return deformation.change({rr, rz, zr, zz, tt});
+        };
+        const SymmetricTensor r = change({s.slope_r, s.slope_z, 0.0, 0.0}, s.value * hoop),
+                              z = change({0.0, 0.0, s.slope_r, s.slope_z}, 0.0);
         const auto [across_r, across_z] = s.parity;
         B[2 * a] = {across_r * r.rr, across_r * r.zz, across_r * r.tt, across_r * r.rz};
         B[2 * a + 1] = {across_z * z.rr, across_z * z.zz, across_z * z.tt, across_z * z.rz};

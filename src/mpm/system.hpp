@@ -41,7 +41,8 @@ class Contact;
 /// All that moves: bodies, their grid, and how their particles' local equations are integrated.
 struct System {
   bool axisymmetric = true;
-  double cell = 0.0;  ///< m
+  double cell = 0.0;               ///< m
+  bool between_centroids = false;  ///< gradients are taken between centroids, not between nodes
   std::vector<Body> bodies;
   std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2
   mpm::Grid grid;

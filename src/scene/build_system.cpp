@@ -138,6 +138,7 @@ System build_system(const Scene& scene, int threads) {
   system.time = scene.start;
   for (std::size_t index = 0; index < scene.bodies.size(); ++index)
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
+  system.between_centroids = scene.gradients == Gradients::centroids;
   system.grid =
       mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
   system.record.impulses.resize(2 * system.grid.boundaries().size());

@@ -13,6 +13,8 @@ inline constexpr std::array geometries{Named{"axisymmetric", Geometry::axisymmet
 inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::linear},
                                             Named{"gimp", mpm::ShapeKind::gimp},
                                             Named{"bspline2", mpm::ShapeKind::bspline2}};
+inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
+                                      Named{"centroids", Gradients::centroids}};
 inline constexpr std::array grid_methods{Named{"explicit", GridMethod::explicit_steps},
                                          Named{"arkode-explicit", GridMethod::arkode_explicit},
                                          Named{"arkode-implicit", GridMethod::arkode_implicit}};

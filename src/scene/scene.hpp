@@ -19,6 +19,7 @@ namespace vitrum {
 using Vector2 = std::array<double, 2>;
 
 enum class Geometry { axisymmetric, plane_strain };
+enum class Gradients { nodes, centroids };
 enum class GridMethod { explicit_steps, arkode_explicit, arkode_implicit };
 enum class ContactMethod { single, bodies };
 enum class LinearSolver { klu, gmres };
@@ -139,6 +140,7 @@ struct Scene {
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
   mpm::ShapeKind shape_functions = mpm::ShapeKind::linear;
+  Gradients gradients = Gradients::nodes;
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;
   ConstitutiveDefinition constitutive;

@@ -21,6 +21,7 @@ inline constexpr double unit_young = 1.0 / 1.2, unit_poisson = 0.25, unit_shear 
 struct MpmScene {
   std::string geometry = "plane-strain";
   std::string shape = "linear";
+  std::string gradients = "nodes";
   double cell = 1.0;
   std::string method = "explicit";
   std::string scheme = "usf";
@@ -31,10 +32,11 @@ struct MpmScene {
 
   std::string text() const {
     return fmt::format(
-        "[space]\ngeometry = \"{}\"\ncell = {:.17g}\nshape_functions = \"{}\"\n[time]\nend = 1.0\n"
+        "[space]\ngeometry = \"{}\"\ncell = {:.17g}\nshape_functions = \"{}\"\ngradients = "
+        "\"{}\"\n[time]\nend = 1.0\n"
         "[integrator]\nmethod = \"{}\"\nscheme = \"{}\"\n{}\n{}\n"
         "[material.elastic]\ndensity = {:.17g}\nyoung = {:.17g}\npoisson = {:.17g}\n",
-        geometry, cell, shape, method, scheme, pace, tables, density, young, poisson);
+        geometry, cell, shape, gradients, method, scheme, pace, tables, density, young, poisson);
   }
 };
 
