@@ -242,7 +242,9 @@ std::string to_text(const StartGeometry& geometry, const Scene& scene) {
     if (std::isfinite(e.particle_gap))
       text += fmt::format(", their nearest particles {:.6g} m", e.particle_gap);
     text += e.common_nodes == 0 ? std::string("; no common node\n")
-                                : fmt::format("; joined from the start by {} common nodes\n", e.common_nodes);
+            : scene.contact.method == ContactMethod::bodies
+                ? std::string("; each with a velocity field of its own\n")
+                : fmt::format("; joined from the start by {} common nodes\n", e.common_nodes);
   }
   for (std::size_t k = 0; k < geometry.boundary_nodes.size(); ++k)
     text += fmt::format("# boundary '{}': {} nodes with mass\n", scene.boundaries[k].name,

@@ -52,7 +52,7 @@ a step has fewer than 100 units of their last digit.
 
 What is valid but hardly meant is warned of, by `check` and `run`: waves slower than 100 m/s or faster than 20 km/s (with the value that was probably meant), bodies that
 approach each other faster than waves travel in one of them, a scene in which nothing moves, a body that flies past everything, a boundary that no body is at or heads for, a disk or ring off the axis
-(a torus), bodies that do not touch but share nodes of the grid, so that one velocity field joins them. The end of an adaptive run says whether its
+(a torus), bodies that do not touch but share nodes of the grid, so that one velocity field joins them, and, in a scene without `[contact]`, bodies that can meet: they are welded there. The end of an adaptive run says whether its
 tolerance acted. Warnings go to standard error, and stand in `summary.json` and `check --json` as `warnings`.
 
 `check` prints for each body the mass of its shape and of its particles, for bodies within 4 cells and each body's nearest the gap between the shapes, the distance of

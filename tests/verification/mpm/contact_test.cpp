@@ -223,3 +223,25 @@ TEST_CASE("Newton's cradle: the last of three bars flies on", "[contact]") {
   CHECK(mean_velocity(run, 2) == Approx(10.0).margin(0.6));
   CHECK(std::abs(run.energy().relative_residual()) < 0.01);
 }
+
+TEST_CASE("A cylinder on a slope rolls with about two thirds of the acceleration with which it slides",
+          "[contact]") {
+  // c = 1, cells of 1. It begins in touch and bounces: while it flies nothing turns it.
+  constexpr double g = 1e-4, slope = 0.5, radius = 6.0, duration = 400.0;
+  for (const bool rolls : {true, false}) {
+    CAPTURE(rolls);
+    MpmScene scene;
+    scene.shape = "gimp", scene.scheme = "musl", scene.pace = "";
+    scene.tables =
+        fmt::format("[contact]\nmethod = \"bodies\"\nslip_speed = 1e-4\nfriction = {}\n", rolls ? 0.5 : 0.0) +
+        body("ground", box({-8.0, -4.0}, {24.0, 0.0}), "particles_per_cell = 4") +
+        body("cylinder", disk({0.0, radius}, radius), "particles_per_cell = 4") +
+        hold("[-inf, -inf]", "[inf, -1.0]", "\"x\", \"y\"") +
+        fmt::format("[gravity]\nacceleration = [{}, {}]\n", g * slope, -g);
+    MpmRun run(scene);
+    run.advance(duration);
+    const double v = mean_velocity(run, 1), free = g * slope * duration;
+    CHECK(v == Approx(rolls ? 2.0 / 3.0 * free : free).epsilon(rolls ? 0.1 : 0.05));
+    CHECK(std::abs(run.energy().relative_residual()) < 0.01);
+  }
+}
