@@ -35,7 +35,8 @@ void arkode_explicit_rhs(benchmark::State& state) {
   RunningScene run(scene);
   run.advance(2, scene.end);
   ParticleSystem particles(run.system, error_scales(run.system, {}), 1e-3, 1.0);
-  std::vector<double> y(particles.size()), rates(particles.size());
+  const std::size_t unknowns = particles.size() + particles.integrals();
+  std::vector<double> y(unknowns), rates(unknowns);
   particles.begin(y.data());
   double t = run.system.time;
   const double step = 1e-9;
@@ -54,7 +55,7 @@ struct ImplicitParts {
   explicit ImplicitParts(long thousands)
       : scene(bar(thousands)), run(scene), grid(run.system, error_scales(run.system, {}), 1e-3) {
     grid.begin_phase();
-    y.resize(grid.size()), rates.resize(grid.size());
+    y.resize(grid.size() + grid.integrals()), rates.resize(y.size());
     grid.start(y.data());
     solver = std::make_unique<sundials::ReducedSolver>(context, grid, sundials::ReducedSolver::Kind::factor);
     t = run.system.time + 1e-12;

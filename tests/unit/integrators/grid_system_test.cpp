@@ -51,7 +51,7 @@ TEST_CASE("The reduced Newton equations solve those of the whole system", "[inte
       GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
       grid.begin_phase();
       const std::size_t size = grid.size(), n = size / 2;
-      std::vector<double> y(size);
+      std::vector<double> y(size + grid.integrals());
       grid.start(y.data());
       for (std::size_t k = 0; k < n; ++k) y[k] = random.uniform(-1e-5, 1e-5);
       REQUIRE(grid.linearise(0.1, y.data()));
@@ -97,7 +97,7 @@ TEST_CASE("Without stress the stiffness is the derivative of the forces", "[inte
       GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
       grid.begin_phase();
       const std::size_t n = grid.size() / 2;
-      std::vector<double> y(grid.size()), x(n);
+      std::vector<double> y(grid.size() + grid.integrals()), x(n);
       grid.start(y.data());
       REQUIRE(grid.linearise(0.0, y.data()));
       // form(1) - form(0) is K, reduce with b = (x, 0) gives -K x.
@@ -131,9 +131,9 @@ TEST_CASE("Right-hand sides leave the committed state alone, to the bit", "[inte
   GridSystem grid(run.system, {200.0, 1e-3, 1e-3}, 1e-3);
   grid.begin_phase();  // which may move particles in memory
   const auto before = run.system.bodies;
-  std::vector<double> y(grid.size());
+  std::vector<double> y(grid.size() + grid.integrals());
   grid.start(y.data());
-  for (std::size_t k = 0; k < y.size() / 2; ++k) y[k] = 1e-7 * y[y.size() / 2 + k];
+  for (std::size_t k = 0; k < grid.size() / 2; ++k) y[k] = 1e-7 * y[grid.size() / 2 + k];
   for (int k = 0; k < 3; ++k) {
     rates_at(grid, run.system.time + 1e-7, y);
     REQUIRE(grid.linearise(run.system.time + 1e-7, y.data()));
@@ -159,7 +159,7 @@ TEST_CASE("The factors of a wide body have the entries of minimum degree on a sy
   MpmRun run(scene);
   GridSystem grid(run.system, error_scales(run.system, {}), 1e-3);
   grid.begin_phase();
-  std::vector<double> y(grid.size());
+  std::vector<double> y(grid.size() + grid.integrals());
   grid.start(y.data());
   const vitrum::sundials::Context context;
   vitrum::sundials::ReducedSolver solver(context, grid, vitrum::sundials::ReducedSolver::Kind::factor);
@@ -184,7 +184,7 @@ TEST_CASE("What a grid system computes is the same for any number of threads",
       scatter_at_random(run.system, random, 0.3);
       GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
       grid.begin_phase();
-      std::vector<double> y(grid.size()), matrix(grid.pattern().row.size()), all;
+      std::vector<double> y(grid.size() + grid.integrals()), matrix(grid.pattern().row.size()), all;
       grid.start(y.data());
       // Once as committed, once deformed, once deformed further after a commit.
       for (const double time : {0.1, 0.2, 0.3}) {
@@ -195,7 +195,7 @@ TEST_CASE("What a grid system computes is the same for any number of threads",
         all.insert(all.end(), f.begin(), f.end());
         all.insert(all.end(), matrix.begin(), matrix.end());
         all.insert(all.end(), {run.system.record.kinetic, run.system.record.elastic, grid.deformation()});
-        for (std::size_t k = 0; k < y.size() / 2; ++k) y[k] += random.uniform(-1e-3, 1e-3);
+        for (std::size_t k = 0; k < grid.size() / 2; ++k) y[k] += random.uniform(-1e-3, 1e-3);
       }
       found.push_back(all);
     }

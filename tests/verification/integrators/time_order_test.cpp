@@ -102,7 +102,7 @@ class LinearPhase {
       : run_(swinging_body("explicit", "courant = 0.2")), grid_(run_.system, {swing, swing, 1.0}, 1e-10) {
     grid_.begin_phase();
     const auto n = static_cast<Eigen::Index>(grid_.size() / 2);
-    std::vector<double> y(grid_.size()), zero(grid_.pattern().row.size()), one = zero;
+    std::vector<double> y(grid_.size() + grid_.integrals()), zero(grid_.pattern().row.size()), one = zero;
     grid_.start(y.data());
     REQUIRE(grid_.linearise(0.0, y.data()));
     grid_.form(0.0, zero.data());
