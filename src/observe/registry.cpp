@@ -1,6 +1,7 @@
 #include "observe/registry.hpp"
 
 #include "observe/bodies.hpp"
+#include "observe/contacts.hpp"
 #include "observe/energy_ledger.hpp"
 #include "observe/events.hpp"
 #include "observe/failure.hpp"
@@ -19,12 +20,13 @@ constexpr ObserverKind kind() {
 }
 
 constexpr ObserverKind kinds[] = {
-    kind<EnergyLedger>(),     // energy.csv
-    kind<FailureAnalysis>(),  // the summary and the series
-    kind<EventLog>(),         // events.csv
-    kind<BodyHistory>(),      // bodies.csv
-    kind<ReactionHistory>(),  // reactions.csv
-    kind<ProbeHistory>(),     // probes.csv
+    kind<EnergyLedger>(),      // energy.csv
+    kind<FailureAnalysis>(),   // the summary and the series
+    kind<EventLog>(),          // events.csv
+    kind<BodyHistory>(),       // bodies.csv
+    kind<ReactionHistory>(),   // reactions.csv
+    kind<ContactHistories>(),  // contacts.csv
+    kind<ProbeHistory>(),      // probes.csv
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 """Bodies with velocity fields of their own: what a scene says, and what a run keeps of it."""
+import csv
 import json
 import unittest
 
@@ -43,6 +44,11 @@ class Contact(CommandLineTest):
         self.assertGreater(np.max(rows["contact"]), 1.0)
         self.assertEqual(pair["bodies"], ["plate", "block"])
         self.assertAlmostEqual(pair["friction_work"], energy["friction"], delta=1e-9)
+        with open(out / "contacts.csv") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual([table[-1]["body_a"], table[-1]["body_b"]], pair["bodies"])
+        self.assertEqual([float(table[-1][name]) for name in ("impulse_r", "impulse_z", "friction_work", "least_gap")],
+                         [*pair["impulse"], pair["friction_work"], pair["least_gap"]])
         # The block's momentum has changed by what it has given to the plate.
         block = summary["bodies"]["block"]
         start = block["mass"] * np.array([60.0, -20.0])
