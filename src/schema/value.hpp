@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,9 +17,26 @@ using Numbers = std::vector<double>;
 /// Numbers by names that the file gives them, in its order.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
+using ValueVariant = std::variant<double, int, bool, std::string, Numbers, std::vector<Numbers>,
+                                  std::vector<std::string>, NamedNumbers>;
+
 /// What a key that is no table holds.
-using Value = std::variant<double, int, bool, std::string, Numbers, std::vector<Numbers>,
-                           std::vector<std::string>, NamedNumbers>;
+struct Value : ValueVariant {
+  using ValueVariant::ValueVariant;
+  Value() = default;
+  Value(Value&&) = default;
+  Value& operator=(Value&&) = default;
+  /// By way of a value: where memory runs out in the variant's own copy, libstdc++ 12 destroys a text or list
+  /// that was never made.
+  Value(const Value& other)
+      : ValueVariant(std::visit(
+            [](const auto& held) {
+              return ValueVariant(std::in_place_type<std::decay_t<decltype(held)>>, held);
+            },
+            static_cast<const ValueVariant&>(other))) {}
+  Value& operator=(const Value& other) { return *this = Value(other); }
+  ~Value() = default;
+};
 
 /// The kinds of values, in the order of Value, and of tables: one, a list of them, and a table of tables
 /// whose keys are names.

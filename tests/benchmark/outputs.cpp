@@ -45,7 +45,7 @@ BENCHMARK(result_output)->ArgName("thousand")->Arg(1)->Arg(80)->Unit(benchmark::
 void checkpoint(benchmark::State& state) {
   RunningScene run(bar(state.range(0)));
   const Directory directory;
-  const output::Checkpoint all{0.0, 0, "", output::checkpoint_bodies(run.system.bodies), {}, {}};
+  const output::Checkpoint all{0.0, 0, "", output::checkpoint_bodies(run.system.bodies), {}};
   for ([[maybe_unused]] auto _ : state) output::write_checkpoint(directory.path / "checkpoint.h5", all);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(run.system.particle_count()));
 }

@@ -103,7 +103,7 @@ TEST_CASE("A box without a node is warned of, with the nearest row", "[scene]") 
   CHECK(warnings_of("[-inf, 4]", "[inf, 4]").empty());
   REQUIRE(warnings_of("[-inf, 4.1]", "[inf, 4.3]").size() == 1);
   CHECK(warnings_of("[-inf, 4.1]", "[inf, 4.3]")[0] ==
-        "s.toml:17:7: key 'boundary.0.box': boundary 'die' holds no node: no row of nodes lies between y = "
+        "s.toml:18:7: key 'boundary.0.box': boundary 'die' holds no node: no row of nodes lies between y = "
         "4.1 and 4.3 m; the "
         "nearest is at y = 4 m");
   CHECK(warnings_of("[0.2, 0]", "[0.45, 9]")[0].ends_with(
