@@ -14,10 +14,14 @@ enum class Force { no, yes };
 
 /// Gives `next` the name `path`. Where there is such a file and neither is to be forced to disk, the two
 /// change names, and the former is removed: a file that is renamed over another is written to disk at once by
-/// ext4, for whose removal at the next renewal one would have to wait.
+/// ext4, for whose removal at the next renewal one would have to wait. The renewal is done when they have
+/// changed names: a former one that cannot be removed is no failure, and is written over by the next.
 void rename_to(const std::filesystem::path& next, const std::filesystem::path& path, Force force) {
-  if (force == Force::no && renameat2(AT_FDCWD, next.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0)
-    return remove_file(next);
+  if (force == Force::no && renameat2(AT_FDCWD, next.c_str(), AT_FDCWD, path.c_str(), RENAME_EXCHANGE) == 0) {
+    std::error_code left;
+    std::filesystem::remove(next, left);
+    return;
+  }
   if (std::rename(next.c_str(), path.c_str()) != 0) throw_file_error(path, "replace", errno);
 }
 
