@@ -96,8 +96,8 @@ void klu_solve(benchmark::State& state) {
   // slow.
   std::vector<double> b, x;
   time_part(state, [&](ImplicitParts& p) {
-    for (std::size_t k = b.size(); k < p.grid.size(); ++k) b.push_back(std::sin(static_cast<double>(k)));
-    x.resize(p.grid.size());
+    for (std::size_t k = b.size(); k < p.y.size(); ++k) b.push_back(std::sin(static_cast<double>(k)));
+    x.resize(p.y.size());
     p.solver->solve(b.data(), x.data());
   });
 }
