@@ -124,7 +124,7 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
 }  // namespace
 
 int check_scene(const CheckOptions& options) {
-  const InputText& input = show_lines_of(read_input(options.scene), options.overrides);
+  const InputText input = show_lines_of(read_input(options.scene), options.overrides);
   const Scene scene = parse_scene(input.text, input.name, options.overrides);
   const SceneSize size = size_of(scene);
   require_memory(scene, size);

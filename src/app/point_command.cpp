@@ -70,7 +70,7 @@ std::string row(const Material& material, double time, const SymmetricTensor& e,
 }  // namespace
 
 int drive_point(const PointOptions& options) {
-  const InputText& input = show_lines_of(read_input(options.file), options.overrides);
+  const InputText input = show_lines_of(read_input(options.file), options.overrides);
   const PointScene scene = parse_point(input.text, input.name, options.overrides);
   for (const std::string& w : scene.warnings) warn(w);
   const std::shared_ptr<const Material> material = make_material(scene.material, scene.size);

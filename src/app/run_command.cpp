@@ -34,7 +34,7 @@ int run_scene(const RunOptions& options) {
         "SCENE: found -, expected a file: a run that goes on from its checkpoint reads its scene again, "
         "which "
         "standard input gives once; `vitrum check -` and `vitrum point -` take it");
-  const InputText& input = show_lines_of(read_input(options.scene), options.overrides);
+  const InputText input = show_lines_of(read_input(options.scene), options.overrides);
   const Scene scene = parse_scene(input.text, input.name, options.overrides);
   require_memory(scene, size_of(scene));
   System system = build_system(scene, options.threads);
