@@ -37,7 +37,8 @@ class Particle {
   bool same_bits(const Particle& o) const {
     return std::memcmp(strain_, o.strain_, sizeof strain_) == 0 &&
            std::memcmp(stress_, o.stress_, sizeof stress_) == 0 &&
-           std::memcmp(variables_.data(), o.variables_.data(), variables_.size() * sizeof(double)) == 0;
+           (variables_.empty() ||
+            std::memcmp(variables_.data(), o.variables_.data(), variables_.size() * sizeof(double)) == 0);
   }
   void reload(const Particle& stored) {
     std::copy(std::begin(stored.strain_), std::end(stored.strain_), strain_);
