@@ -22,14 +22,10 @@ namespace {
 
 using schema::Field;
 using schema::Fields;
+using schema::in_one_line;
 using schema::required;
 using schema::Table;
 using schema::table_of;
-
-Table in_one_line(Table table) {
-  table.in_one_line = true;
-  return table;
-}
 
 Fields<Box> box_rows(const Bounds& bounds) {
   return {{"min", &Box::min, "m", bounds, "lower left corner", required},
@@ -127,6 +123,11 @@ Table make_boundary_table(Geometry geometry) {
 }
 
 }  // namespace
+
+const Table& probe_box_table() {
+  static const Table table = in_one_line(table_of("`box` of a probe", "", box_rows(intervals::finite)));
+  return table;
+}
 
 const Table& body_table() {
   using B = BodyDefinition;

@@ -5,14 +5,10 @@ namespace vitrum::scene {
 namespace {
 
 using schema::Field;
+using schema::in_one_line;
 using schema::required;
 using schema::Table;
 using schema::table_of;
-
-Table in_one_line(Table table) {
-  table.in_one_line = true;
-  return table;
-}
 
 const Table& line_table() {
   using L = ProbeLine;
@@ -21,14 +17,6 @@ const Table& line_table() {
                               {{"from", &L::from, "m", intervals::finite, "the first point", required},
                                {"to", &L::to, "m", intervals::finite, "the last point", required},
                                {"count", &L::count, Bounds{2.0, 1.0e4}, "points, evenly spaced", required}}));
-  return table;
-}
-
-const Table& box_table() {
-  static const Table table = in_one_line(
-      table_of<Box>("`box` of a probe", "",
-                    {{"min", &Box::min, "m", intervals::finite, "lower left corner", required},
-                     {"max", &Box::max, "m", intervals::finite, "upper right corner", required}}));
   return table;
 }
 
@@ -45,7 +33,8 @@ const Table& probe_table() {
                                         "the particle nearest to it (exactly one of the three)"),
          Field<P>::alternative<ProbeLine>("line", &P::place, line_table(),
                                           "the particles nearest to its points"),
-         Field<P>::alternative<Box>("box", &P::place, box_table(), "all particles in it: their means")});
+         Field<P>::alternative<Box>("box", &P::place, probe_box_table(),
+                                    "all particles in it: their means")});
     t.alternatives = {{{"point", "line", "box"}, "place"}};
     return t;
   }();

@@ -24,6 +24,7 @@ const schema::Table& body_table();
 const schema::Table& boundary_table(Geometry geometry);
 const schema::Table& contact_table();
 const schema::Table& probe_table();
+const schema::Table& probe_box_table();
 const schema::Table& material_table();
 
 /// Names that `output.fields` admits.

@@ -256,4 +256,10 @@ Table table_of(std::string_view heading, std::string_view text, const Fields<Own
   return {std::string(heading), std::string(text), {fields.begin(), fields.end()}};
 }
 
+/// The same table, written {like = this}.
+inline Table in_one_line(Table table) {
+  table.in_one_line = true;
+  return table;
+}
+
 }  // namespace vitrum::schema
