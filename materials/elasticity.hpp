@@ -2,7 +2,7 @@
 #include <cmath>
 #include <span>
 
-#include "materials/description.hpp"
+#include "schema/fields.hpp"
 #include "tensor/symmetric.hpp"
 
 namespace vitrum {
@@ -13,7 +13,7 @@ struct ElasticParameters {
   double young = 0.0;    ///< Pa
   double poisson = 0.0;
 
-  static std::span<const ParameterInfo<ElasticParameters>> describe();
+  static schema::Fields<ElasticParameters> rows();
 };
 
 /// Bulk and shear modulus, Pa.

@@ -5,29 +5,30 @@
 #include <cmath>
 
 #include "materials/root.hpp"
+#include "schema/field.hpp"
 
 namespace vitrum {
 using intervals::fraction, intervals::not_negative, intervals::positive;
+using schema::required;
 
-std::span<const ParameterInfo<JohnsonCookParameters>> JohnsonCookParameters::describe() {
+schema::Fields<JohnsonCookParameters> JohnsonCookParameters::rows() {
   using P = JohnsonCookParameters;
-  static constexpr std::array<ParameterInfo<P>, 11> table{{
-      {"A", &P::A, "Pa", {}, positive, "yield strength at the reference rate and temperature"},
-      {"B", &P::B, "Pa", {}, not_negative, "hardening"},
-      {"n", &P::n, "1", {}, {0.0, 10.0, true}, "exponent of the plastic strain"},
-      {"C", &P::C, "1", 0.0, fraction, "factor of the logarithm of the rate"},
-      {"m", &P::m, "1", {}, {0.0, 10.0, true}, "exponent of the homologous temperature T*"},
-      {"reference_rate", &P::reference_rate, "1/s", 1.0, positive,
+  return {
+      {"A", &P::A, "Pa", positive, "yield strength at the reference rate and temperature", required},
+      {"B", &P::B, "Pa", not_negative, "hardening", required},
+      {"n", &P::n, "1", {0.0, 10.0, true}, "exponent of the plastic strain", required},
+      {"C", &P::C, "1", fraction, "factor of the logarithm of the rate"},
+      {"m", &P::m, "1", {0.0, 10.0, true}, "exponent of the homologous temperature T*", required},
+      {"reference_rate", &P::reference_rate, "1/s", positive,
        "rate of plastic strain below which C counts for nothing"},
-      {"reference_temperature", &P::reference_temperature, "K", 298.0, not_negative,
-       "temperature at which T* is 0"},
-      {"melting_temperature", &P::melting_temperature, "K", {}, positive, "temperature at which T* is 1"},
-      {"temperature", &P::temperature, "K", 298.0, not_negative, "temperature at the start"},
-      {"heat_capacity", &P::heat_capacity, "J/(kg K)", {}, positive, "specific heat"},
-      {"heat_fraction", &P::heat_fraction, "1", 0.9, fraction,
+      {"reference_temperature", &P::reference_temperature, "K", not_negative, "temperature at which T* is 0"},
+      {"melting_temperature", &P::melting_temperature, "K", positive, "temperature at which T* is 1",
+       required},
+      {"temperature", &P::temperature, "K", not_negative, "temperature at the start"},
+      {"heat_capacity", &P::heat_capacity, "J/(kg K)", positive, "specific heat", required},
+      {"heat_fraction", &P::heat_fraction, "1", fraction,
        "share of the plastic work that heats the material; 0: isothermal"},
-  }};
-  return table;
+  };
 }
 
 JohnsonCook::JohnsonCook(const ElasticParameters& elastic, const Parameters& parameters, double /*cell*/)
@@ -77,7 +78,8 @@ void JohnsonCook::advance(State& s, const SymmetricTensor& strain, double durati
     const SymmetricTensor d = deviator(e);
     return 2.0 * G * std::sqrt(1.5 * contract(d, d));
   };
-  const double start = equivalent_stress(s.elastic_strain);
+  const SymmetricTensor before = s.elastic_strain;
+  const double start = equivalent_stress(before);
   s.elastic_strain += strain;
   const double trial = equivalent_stress(s.elastic_strain);
   if (!(trial > 0.0) || (duration == 0.0 && parameters_.C > 0.0)) return;
@@ -98,8 +100,10 @@ void JohnsonCook::advance(State& s, const SymmetricTensor& strain, double durati
   const double flow = rising_root(0.0, most, strength_in_excess), dissipated = work(flow);
   const SymmetricTensor direction = (1.0 / trial) * deviator(s.elastic_strain);
   s.elastic_strain -= 3.0 * G * flow * direction;
-  if (s.plastic_strain == 0.0)
-    report.record(EventKind::yield, std::clamp((slow - start) / (trial - start), 0.0, 1.0));
+  if (s.plastic_strain == 0.0) {
+    const double at = std::clamp((slow - start) / (trial - start), 0.0, 1.0);
+    report.record(EventKind::yield, at, elastic_.stress(before + at * strain));
+  }
   s.plastic_strain += flow;
   if (heats()) s.temperature += kelvin_per_work_ * dissipated;
   report.dissipation.plastic += dissipated;

@@ -3,28 +3,28 @@
 #include <span>
 #include <vector>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
 #include "materials/law_state.hpp"
 #include "materials/registry.hpp"
+#include "schema/fields.hpp"
 
 namespace vitrum {
 
 /// Scene table [material.NAME.johnson_cook]. G. R. Johnson and W. H. Cook, Proc. 7th Int. Symp. on
 /// Ballistics, The Hague 1983, pp. 541-547, whose letters the keys keep.
 struct JohnsonCookParameters {
-  double A = 0.0, B = 0.0;             ///< yield strength and hardening, Pa
-  double n = 1.0;                      ///< exponent of the plastic strain
-  double C = 0.0;                      ///< of the logarithm of the rate
-  double m = 1.0;                      ///< exponent of the temperature
-  double reference_rate = 1.0;         ///< 1/s
-  double reference_temperature = 0.0;  ///< K; T* = 0
-  double melting_temperature = 0.0;    ///< K; T* = 1
-  double temperature = 0.0;            ///< K, at the start
-  double heat_capacity = 0.0;          ///< J/(kg K)
-  double heat_fraction = 0.0;          ///< of the plastic work (Taylor and Quinney); 0: isothermal
+  double A = 0.0, B = 0.0;               ///< yield strength and hardening, Pa
+  double n = 1.0;                        ///< exponent of the plastic strain
+  double C = 0.0;                        ///< of the logarithm of the rate
+  double m = 1.0;                        ///< exponent of the temperature
+  double reference_rate = 1.0;           ///< 1/s
+  double reference_temperature = 298.0;  ///< K; T* = 0
+  double melting_temperature = 0.0;      ///< K; T* = 1
+  double temperature = 298.0;            ///< K, at the start
+  double heat_capacity = 0.0;            ///< J/(kg K)
+  double heat_fraction = 0.9;            ///< of the plastic work (Taylor and Quinney); 0: isothermal
 
-  static std::span<const ParameterInfo<JohnsonCookParameters>> describe();
+  static schema::Fields<JohnsonCookParameters> rows();
 };
 
 /// sigma_y = (A + B eps^n) (1 + C ln(rate / reference rate)) (1 - T*^m) on isotropic elasticity: the strength

@@ -5,43 +5,39 @@
 #include <cmath>
 
 #include "materials/root.hpp"
+#include "schema/field.hpp"
 
 namespace vitrum {
 using intervals::finite, intervals::fraction, intervals::infinite, intervals::not_negative,
     intervals::positive;
+using schema::required;
 
-std::span<const ParameterInfo<JohnsonHolmquistParameters>> JohnsonHolmquistParameters::describe() {
+schema::Fields<JohnsonHolmquistParameters> JohnsonHolmquistParameters::rows() {
   using P = JohnsonHolmquistParameters;
-  static constexpr std::array<ParameterInfo<P>, 15> table{{
-      {"A",
-       &P::A,
-       "1",
-       {},
-       positive,
-       "intact strength at P + T = PHEL, in units of sigma_HEL = 1.5 (HEL - PHEL)"},
-      {"N", &P::N, "1", {}, not_negative, "exponent of the pressure in the intact strength"},
-      {"B", &P::B, "1", {}, not_negative, "fractured strength at P = PHEL, in units of sigma_HEL"},
-      {"M", &P::M, "1", {}, not_negative, "exponent of the pressure in the fractured strength"},
+  return {
+      {"A", &P::A, "1", positive, "intact strength at P + T = PHEL, in units of sigma_HEL = 1.5 (HEL - PHEL)",
+       required},
+      {"N", &P::N, "1", not_negative, "exponent of the pressure in the intact strength", required},
+      {"B", &P::B, "1", not_negative, "fractured strength at P = PHEL, in units of sigma_HEL", required},
+      {"M", &P::M, "1", not_negative, "exponent of the pressure in the fractured strength", required},
       {"fractured_limit",
        &P::fractured_limit,
        "1",
-       infinite,
        {0.0, infinite},
        "largest fractured strength, in units of sigma_HEL"},
-      {"C", &P::C, "1", 0.0, fraction, "factor of the logarithm of the rate"},
-      {"reference_rate", &P::reference_rate, "1/s", 1.0, positive,
-       "strain rate below which C counts for nothing"},
-      {"T", &P::T, "Pa", {}, not_negative, "largest hydrostatic tension"},
-      {"HEL", &P::HEL, "Pa", {}, positive, "Hugoniot elastic limit"},
-      {"PHEL", &P::PHEL, "Pa", {}, positive, "pressure at the Hugoniot elastic limit"},
-      {"D1", &P::D1, "1", {}, not_negative, "plastic strain that fractures at P + T = PHEL"},
-      {"D2", &P::D2, "1", {}, not_negative, "exponent of the pressure in the plastic strain that fractures"},
-      {"K2", &P::K2, "Pa", 0.0, finite, "of mu^2 in the pressure (K1 is the bulk modulus)"},
-      {"K3", &P::K3, "Pa", 0.0, finite, "of mu^3 in the pressure"},
-      {"beta", &P::beta, "1", 1.0, fraction,
+      {"C", &P::C, "1", fraction, "factor of the logarithm of the rate"},
+      {"reference_rate", &P::reference_rate, "1/s", positive, "strain rate below which C counts for nothing"},
+      {"T", &P::T, "Pa", not_negative, "largest hydrostatic tension", required},
+      {"HEL", &P::HEL, "Pa", positive, "Hugoniot elastic limit", required},
+      {"PHEL", &P::PHEL, "Pa", positive, "pressure at the Hugoniot elastic limit", required},
+      {"D1", &P::D1, "1", not_negative, "plastic strain that fractures at P + T = PHEL", required},
+      {"D2", &P::D2, "1", not_negative, "exponent of the pressure in the plastic strain that fractures",
+       required},
+      {"K2", &P::K2, "Pa", finite, "of mu^2 in the pressure (K1 is the bulk modulus)"},
+      {"K3", &P::K3, "Pa", finite, "of mu^3 in the pressure"},
+      {"beta", &P::beta, "1", fraction,
        "share of the elastic energy set free by fracture that becomes bulking"},
-  }};
-  return table;
+  };
 }
 
 JohnsonHolmquist::JohnsonHolmquist(const ElasticParameters& elastic, const Parameters& parameters,
@@ -153,22 +149,16 @@ bool JohnsonHolmquist::fails_in_tension(const State& s, double pressure) const {
   return s.damage < 1.0 && pressure < 0.0 && pressure <= -parameters_.T * (1.0 - s.damage);
 }
 
-void JohnsonHolmquist::grow(State& s, double damage, PointReport& report) const {
-  if (s.damage == 0.0 && damage > 0.0) report.record(EventKind::damage, 1.0);
-  s.damage = damage;
-}
-
 /// A fracture under hydrostatic tension (Pa), which it sets free.
 void JohnsonHolmquist::open_in_tension(State& s, double tension, PointReport& report) const {
-  grow(s, 1.0, report);
+  s.damage = 1.0;
   report.dissipation.damage += 0.5 * tension * tension / elastic_.bulk;
 }
 
 /// Plastic flow at the strain of `s` from an equivalent stress `trial`, until the stress is borne. The
 /// strength falls linearly with the plastic strain while damage grows; where it falls faster than the stress
 /// can, the point fractures at once, unless bulking stops it. Grows damage and bulking.
-JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rate,
-                                              PointReport& report) const {
+JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rate) const {
   // Under pressure, which bulking changes, damage grows in slices.
   const bool confined = unlimited_pressure(s) >= 0.0;
   const double stiffness = 3.0 * elastic_.shear, J = volume_ratio(s.elastic_strain);
@@ -188,7 +178,7 @@ JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rat
     const double slope = stiffness * to_fracture - J * (now.intact - now.fractured);
     const double wanted = slope > 0.0 ? (stress - bears) / slope : infinite;  // growth of damage
     done = wanted < grows;
-    grow(s, done ? s.damage + wanted : std::min(s.damage + grows, 1.0), report);
+    s.damage = done ? s.damage + wanted : std::min(s.damage + grows, 1.0);
     f.plastic_strain += std::min(wanted, grows) * to_fracture;
     if (!confined) continue;
     const double weaker = J * now.at(s.damage), end = trial - stiffness * f.plastic_strain;
@@ -202,6 +192,13 @@ JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rat
 }
 
 void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double duration,
+                               PointReport& report) const {
+  const bool was_whole = s.damage == 0.0;
+  respond(s, strain, duration, report);
+  if (was_whole && s.damage > 0.0) report.record(EventKind::damage, 1.0, stress(s));
+}
+
+void JohnsonHolmquist::respond(State& s, const SymmetricTensor& strain, double duration,
                                PointReport& report) const {
   // Stresses are those of the reference volume, as the elastic strain gives them.
   const SymmetricTensor d = deviator(strain);
@@ -225,7 +222,7 @@ void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double d
                            ? start_stress
                            : start_bears + outside / (outside - trial + bears) * (bears - start_bears);
   const bool was_whole = s.damage < 1.0;
-  Flow f = flow(s, trial, rate, report);
+  Flow f = flow(s, trial, rate);
   report.dissipation.plastic += std::max(0.5 * (began + f.stress) * f.plastic_strain - f.bulked, 0.0);
   if (was_whole && unlimited < 0.0 && (s.damage >= 1.0 || fails_in_tension(s, unlimited))) {
     open_in_tension(s, -unlimited, report);

@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
 #include "materials/law_state.hpp"
 #include "materials/registry.hpp"
+#include "schema/fields.hpp"
 
 namespace vitrum {
 
@@ -15,18 +15,18 @@ namespace vitrum {
 /// Conf. Proc. 309 (1994), pp. 981-984, whose letters the keys keep. K1 and G are the bulk and the shear
 /// modulus of the material's elasticity.
 struct JohnsonHolmquistParameters {
-  double A = 0.0, N = 0.0;       ///< intact strength
-  double B = 0.0, M = 0.0;       ///< fractured strength
-  double fractured_limit = 0.0;  ///< of the normalised fractured strength
-  double C = 0.0;                ///< of the logarithm of the rate
-  double reference_rate = 1.0;   ///< 1/s
-  double T = 0.0;                ///< largest hydrostatic tension, Pa
+  double A = 0.0, N = 0.0;                                           ///< intact strength
+  double B = 0.0, M = 0.0;                                           ///< fractured strength
+  double fractured_limit = std::numeric_limits<double>::infinity();  ///< of the normalised fractured strength
+  double C = 0.0;                                                    ///< of the logarithm of the rate
+  double reference_rate = 1.0;                                       ///< 1/s
+  double T = 0.0;                                                    ///< largest hydrostatic tension, Pa
   double HEL = 0.0, PHEL = 0.0;  ///< Hugoniot elastic limit and the pressure there, Pa
   double D1 = 0.0, D2 = 0.0;     ///< plastic strain to fracture
   double K2 = 0.0, K3 = 0.0;     ///< equation of state, Pa
   double beta = 1.0;             ///< share of the lost elastic energy that bulks
 
-  static std::span<const ParameterInfo<JohnsonHolmquistParameters>> describe();
+  static schema::Fields<JohnsonHolmquistParameters> rows();
 };
 
 /// JH-2: a strength that falls from an intact to a fractured curve, both growing with pressure and rate, as
@@ -74,13 +74,13 @@ class JohnsonHolmquist {
   double equation_of_state(double mu) const;
   double unlimited_pressure(const State& state) const;
   double equivalent_stress(const SymmetricTensor& elastic_strain) const;
-  void grow(State& state, double damage, PointReport& report) const;
+  void respond(State& state, const SymmetricTensor& strain, double duration, PointReport& report) const;
   struct Flow {
     double plastic_strain = 0.0;  ///< equivalent
     double stress = 0.0;          ///< equivalent, of the reference volume, at the end
     double bulked = 0.0;          ///< elastic energy that became bulking, J/m^3
   };
-  Flow flow(State& state, double trial, double rate, PointReport& report) const;
+  Flow flow(State& state, double trial, double rate) const;
   bool fails_in_tension(const State& state, double pressure) const;
   void open_in_tension(State& state, double tension, PointReport& report) const;
 

@@ -1,7 +1,7 @@
 #pragma once
+#include <any>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "materials/composite/damage.hpp"
 #include "materials/composite/decohesion.hpp"
@@ -11,11 +11,10 @@
 
 namespace vitrum {
 
-/// The table of a registered law as read: the values of its keys in the order of RegisteredLaw::parameters, a
-/// number being a list of one.
+/// The table of a registered law as read.
 struct LawParameters {
   std::string table;
-  std::vector<std::vector<double>> values;
+  std::any values;  ///< the law's `Parameters`
 };
 
 /// A [material.NAME] table as read. An absent table is a model that is neither stored nor run.

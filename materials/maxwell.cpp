@@ -5,34 +5,30 @@
 #include <numeric>
 #include <string>
 
+#include "schema/field.hpp"
+
 namespace vitrum {
 using intervals::infinite, intervals::not_negative, intervals::positive;
+using schema::required;
 
-std::span<const ParameterInfo<MaxwellParameters>> MaxwellParameters::describe() {
+schema::Fields<MaxwellParameters> MaxwellParameters::rows() {
   using P = MaxwellParameters;
-  static const std::array<ParameterInfo<P>, 6> table{{
+  return {
       {"ratios",
-       nullptr,
+       &P::ratios,
        "1",
-       {},
        {0.0, 1.0, true},
        "parts g_i of the instantaneous shear modulus that relax",
-       &P::ratios},
-      {"times",
-       nullptr,
-       "s",
-       {},
-       positive,
-       "their relaxation times tau_i at the reference temperature",
-       &P::times},
-      {"C1", &P::C1, "1", 0.0, not_negative,
+       required},
+      {"times", &P::times, "s", positive, "their relaxation times tau_i at the reference temperature",
+       required},
+      {"C1", &P::C1, "1", not_negative,
        "of the shift of all times with temperature (Williams, Landel, Ferry); 0: none"},
-      {"C2", &P::C2, "K", 51.6, positive, "of the shift of all times with temperature"},
-      {"reference_temperature", &P::reference_temperature, "K", 293.15, not_negative,
+      {"C2", &P::C2, "K", positive, "of the shift of all times with temperature"},
+      {"reference_temperature", &P::reference_temperature, "K", not_negative,
        "temperature at which `times` hold"},
-      {"temperature", &P::temperature, "K", 293.15, not_negative, "temperature of the material, constant"},
-  }};
-  return table;
+      {"temperature", &P::temperature, "K", not_negative, "temperature of the material, constant"},
+  };
 }
 
 double MaxwellParameters::shift() const {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
 #include "materials/law_state.hpp"
 #include "materials/registry.hpp"
+#include "schema/fields.hpp"
 
 namespace vitrum {
 
@@ -16,13 +16,13 @@ namespace vitrum {
 /// Young's modulus and Poisson's ratio of the material are the instantaneous ones: they give G0 and the bulk
 /// modulus, which does not relax.
 struct MaxwellParameters {
-  std::vector<double> ratios;          ///< g_i; what their sum lacks of 1 lasts for ever
-  std::vector<double> times;           ///< tau_i at the reference temperature, s
-  double C1 = 0.0, C2 = 0.0;           ///< C2 in K
-  double reference_temperature = 0.0;  ///< K
-  double temperature = 0.0;            ///< K
+  std::vector<double> ratios;             ///< g_i; what their sum lacks of 1 lasts for ever
+  std::vector<double> times;              ///< tau_i at the reference temperature, s
+  double C1 = 0.0, C2 = 51.6;             ///< C2 in K
+  double reference_temperature = 293.15;  ///< K
+  double temperature = 293.15;            ///< K
 
-  static std::span<const ParameterInfo<MaxwellParameters>> describe();
+  static schema::Fields<MaxwellParameters> rows();
   /// a_T, the factor of all times at `temperature`: lg a_T = -C1 (T - T_ref) / (C2 + T - T_ref). M. L.
   /// Williams, R. F. Landel and J. D. Ferry, J. Am. Chem. Soc. 77 (1955), 3701-3707.
   double shift() const;

@@ -3,26 +3,13 @@
 
 #include "materials/batch.hpp"
 #include "materials/registry.hpp"
+#include "schema/field.hpp"
 
 namespace vitrum {
 
-template <class Parameters>
-Parameters parameters_of(const LawParameters& law) {
-  Parameters parameters;
-  std::size_t k = 0;
-  for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
-    const std::vector<double>& value = law.values[k++];
-    if (info.list != nullptr)
-      parameters.*info.list = value;
-    else
-      parameters.*info.member = value.front();
-  }
-  return parameters;
-}
-
 /// The row of a law in the registry. Besides what Batch asks of it, the law has
 ///
-///     struct Parameters { ...; static std::span<const ParameterInfo<Parameters>> describe(); };
+///     struct Parameters { ...; static schema::Fields<Parameters> rows(); };
 ///     Law(const ElasticParameters& elastic, const Parameters& parameters, double cell);
 ///     static std::vector<Variable> all_variables();
 ///
@@ -33,19 +20,23 @@ Parameters parameters_of(const LawParameters& law) {
 template <class Law>
 RegisteredLaw law(std::string table, std::string text) {
   using Parameters = typename Law::Parameters;
-  RegisteredLaw entry{std::move(table), std::move(text), {}, Law::all_variables(), {}, {}};
-  for (const ParameterInfo<Parameters>& info : Parameters::describe())
-    entry.parameters.push_back(
-        {info.name, info.unit, info.fallback, info.bounds, info.description, info.list != nullptr});
+  static constexpr auto parameters_of = [](const MaterialParameters& material) -> const Parameters& {
+    return std::any_cast<const Parameters&>(material.law->values);
+  };
+  RegisteredLaw entry{.table = std::move(table), .text = std::move(text), .variables = Law::all_variables()};
+  entry.keys = schema::table_of("[material.NAME." + entry.table + ']', entry.text + '.', Parameters::rows());
+  entry.defaults = [](std::string_view name) { return LawParameters{std::string(name), Parameters{}}; };
+  entry.values = [](const LawParameters& law) -> const void* {
+    return std::any_cast<Parameters>(&law.values);
+  };
   entry.contradiction =
       []([[maybe_unused]] const MaterialParameters& material) -> std::optional<Contradiction> {
     if constexpr (requires(const Parameters& p) { Law::contradiction(material.elastic, p); })
-      return Law::contradiction(material.elastic, parameters_of<Parameters>(*material.law));
+      return Law::contradiction(material.elastic, parameters_of(material));
     return std::nullopt;
   };
   entry.make = [](const MaterialParameters& material, double cell) -> std::shared_ptr<const Material> {
-    return std::make_shared<Batch<Law>>(
-        material, Law(material.elastic, parameters_of<Parameters>(*material.law), cell));
+    return std::make_shared<Batch<Law>>(material, Law(material.elastic, parameters_of(material), cell));
   };
   return entry;
 }

@@ -7,17 +7,9 @@
 #include <vector>
 
 #include "materials/law.hpp"
+#include "schema/table.hpp"
 
 namespace vitrum {
-
-/// A key of a law's table: a ParameterInfo whose member is its place in the table.
-struct ParameterRow {
-  std::string_view name, unit;
-  std::optional<double> fallback;
-  Bounds bounds;
-  std::string_view description;
-  bool is_list;
-};
 
 /// A key of a law's table whose value the others, or the elasticity, exclude.
 struct Contradiction {
@@ -28,9 +20,12 @@ struct Contradiction {
 /// A law that a scene names by the table [material.NAME.TABLE] instead of the composite's models.
 struct RegisteredLaw {
   std::string table;
-  std::string text;  ///< what it is, a sentence for the scene reference
-  std::vector<ParameterRow> parameters;
+  std::string text;                 ///< what it is, a sentence for the scene reference
+  schema::Table keys;               ///< of the struct that `values` gives
   std::vector<Variable> variables;  ///< all that it may store
+  /// Parameters at their defaults, and the struct among them that `keys` read.
+  LawParameters (*defaults)(std::string_view table);
+  const void* (*values)(const LawParameters& parameters);
   /// Of parameters.law, each of whose values is within its bounds.
   std::function<std::optional<Contradiction>(const MaterialParameters& parameters)> contradiction;
   /// Of parameters.law. cell: side of the grid cells, m.

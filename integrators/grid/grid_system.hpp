@@ -77,7 +77,7 @@ class GridSystem final : public sundials::ReducibleSystem {
       return mpm::FiniteStrain(
           {gradient[0][i], gradient[1][i], gradient[2][i], gradient[3][i], gradient[4][i]});
     }
-    std::array<std::vector<double>, 4> committed_strain;
+    TensorColumns committed_strain;
     std::vector<double> committed_turn;
   };
   /// Where the particles are while a phase goes on, and how they move; only where bodies have contact.

@@ -48,7 +48,7 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
   of_parts_.resize(parts_.size());
 }
 
-std::array<const double*, 4> ParticleSystem::strain_arrays(std::size_t body, const double* y) const {
+TensorPointers<const double> ParticleSystem::strain_arrays(std::size_t body, const double* y) const {
   const double* first = y + place(body, strain);
   const std::size_t n = system_.bodies[body].particles.size;
   if (system_.axisymmetric) return {first, first + n, first + 2 * n, first + 3 * n};
@@ -111,9 +111,9 @@ namespace {
 
 /// Turns the changes of strain since the last commit into the frame that has turned by `turn`.
 template <bool small>
-void turn_changes(std::size_t begin, std::size_t end, const std::array<const double*, 4>& strain,
-                  const std::array<const double*, 4>& committed, const double* turn,
-                  const std::array<double*, 4>& to) {
+void turn_changes(std::size_t begin, std::size_t end, const TensorPointers<const double>& strain,
+                  const TensorPointers<const double>& committed, const double* turn,
+                  const TensorPointers<double>& to) {
   const auto [e0, e1, e2, e3] = strain;
   const auto [c0, c1, c2, c3] = committed;
   const auto [to0, to1, to2, to3] = to;
@@ -141,10 +141,10 @@ bool ParticleSystem::set_increments(const double* y) {
     const auto [n, begin, end] = part;
     Particles& p = system_.bodies[n].particles;
     const Start& start = start_[n];
-    const std::array<const double*, 4> e = strain_arrays(n, y);
+    const TensorPointers<const double> e = strain_arrays(n, y);
     const double *w = y + place(n, turn()), *turned = start.turn.data();
-    std::array<const double*, 4> committed{};
-    std::array<double*, 4> to{};
+    TensorPointers<const double> committed{};
+    TensorPointers<double> to{};
     bool same = std::equal(w + begin, w + end, turned + begin);
     for (std::size_t k = 0; k < 4; ++k) {
       committed[k] = start.strain[k].data(), to[k] = p.strain_increment[k].data();
@@ -269,7 +269,7 @@ bool ParticleSystem::commit(double t, double* y) {
   mpm::update_stress(system_, duration);
   for_each_part([&](const Part& part, std::size_t) {
     const auto [n, begin, end] = part;
-    const std::array<const double*, 4> e = strain_arrays(n, y);
+    const TensorPointers<const double> e = strain_arrays(n, y);
     for (std::size_t k = 0; k < 4; ++k)
       std::copy(e[k] + begin, e[k] + end, start_[n].strain[k].data() + begin);
     const double* w = y + place(n, turn());

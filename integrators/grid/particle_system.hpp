@@ -67,7 +67,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::size_t place(std::size_t body, std::size_t array) const {
     return first_[body] + array * system_.bodies[body].particles.size;
   }
-  std::array<const double*, 4> strain_arrays(std::size_t body, const double* y) const;
+  TensorPointers<const double> strain_arrays(std::size_t body, const double* y) const;
   static Quantity quantity_of(std::size_t array);
   double tolerance_of(Quantity quantity, std::size_t body, std::size_t particle) const;
   /// Calls f(part, its index) on all threads.
@@ -98,8 +98,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   mpm::Trial trial_;
   mpm::ReactionIntegrals reactions_;
   struct Start {
-    std::array<std::vector<double>, 2> position;  ///< at `begin`
-    std::array<std::vector<double>, 4> strain;    ///< at the last commit
+    VectorColumns position;  ///< at `begin`
+    TensorColumns strain;    ///< at the last commit
     std::vector<double> turn;
     std::vector<double> no_strain;  ///< takes the hoop rate of plane strain
   };

@@ -38,6 +38,7 @@ void count_work(const sundials::ArkSolver::Counters& work, const IntegratorCount
   c.rhs_evaluations = before.rhs_evaluations + work.right_hand_sides;
   c.newton_iterations = before.newton_iterations + work.newton_iterations;
   c.factorisations = before.factorisations + work.factorisations;
+  c.factor_entries = std::max(c.factor_entries, work.factor_entries);
 }
 
 std::string failed_step(const sundials::ArkSolver::Step& step, const std::optional<double>& fixed,

@@ -274,7 +274,7 @@ auto ArkSolver::counters() const -> Counters {
   ARKodeGetNumStepAttempts(m, &n), c.attempts += n;
   ARKodeGetNumSteps(m, &n), c.steps += n;
   if (reducible_) ARKodeGetNumNonlinSolvIters(m, &n), c.newton_iterations += n;
-  if (reduced_) c.factorisations = reduced_->factorisations();
+  if (reduced_) c.factorisations = reduced_->factorisations(), c.factor_entries = reduced_->factor_entries();
   return c;
 }
 

@@ -79,6 +79,7 @@ class ArkSolver {
 
   struct Counters {
     std::int64_t attempts = 0, steps = 0, right_hand_sides = 0, newton_iterations = 0, factorisations = 0;
+    std::int64_t factor_entries = 0;  ///< of the factors at hand
   };
   /// Work since construction.
   Counters counters() const;

@@ -22,6 +22,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   using Models::has_yield;
   using Models::secant_moduli;
   using Models::stored_energy;
+  using Models::stress;
 
   CompositeClosedForm(const MaterialParameters& parameters, double cell)
       : Models(parameters, cell), evolution_(parameters, cell) {}
@@ -36,7 +37,6 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   }
   void judge(CompositeState& s, PointReport& report) const;
   void advance(CompositeState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
-  SymmetricTensor stress(const CompositeState& s) const { return secant_moduli(s).stress(s.elastic_strain); }
   std::optional<std::size_t> damage_column() const {
     return has_damage ? std::optional<std::size_t>(Column::crack_density) : std::nullopt;
   }

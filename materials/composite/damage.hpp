@@ -3,8 +3,8 @@
 #include <cmath>
 #include <span>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
+#include "schema/fields.hpp"
 
 namespace vitrum {
 
@@ -13,10 +13,10 @@ struct DamageParameters {
   double toughness = 0.0;   ///< K_IC, Pa sqrt(m)
   double k = 0.0;           ///< 1/m^3
   double m = 0.0;           ///< exponent of eq. 7
-  double rate_floor = 0.0;  ///< 1/s, least rate that enters eq. 7
+  double rate_floor = 1.0;  ///< 1/s, least rate that enters eq. 7
   double fixed_rate = 0.0;  ///< 1/s; > 0: this rate enters eq. 7 instead of the running maximum
 
-  static std::span<const ParameterInfo<DamageParameters>> describe();
+  static schema::Fields<DamageParameters> rows();
 };
 
 /// Crack density at which the material has lost all tensile stiffness (x = 1).
@@ -95,7 +95,6 @@ class DamageLaw {
   double dissipation(double x0, double x1, const SymmetricTensor& e0, const SymmetricTensor& e1) const;
 
   double exponent() const { return parameters_.m; }
-  const Moduli& undamaged() const { return undamaged_; }
 
  private:
   VITRUM_INLINE double weight(double x) const {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <span>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
+#include "schema/fields.hpp"
 #include "tensor/vector.hpp"
 
 namespace vitrum {
@@ -17,7 +17,7 @@ struct DecohesionParameters {
   double viscosity = 0.0;          ///< eta, s; > 0: eta lambda' = <f>/U0
   bool search_all_planes = false;  ///< plane = "all": a hoop normal may win
 
-  static std::span<const ParameterInfo<DecohesionParameters>> describe();
+  static schema::Fields<DecohesionParameters> rows();
 };
 
 /// A plane through a material point: unit normal n and tangent t = n turned by +90 degrees; both components

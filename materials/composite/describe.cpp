@@ -1,61 +1,56 @@
-#include <array>
-
 #include "materials/composite/make.hpp"
+#include "schema/field.hpp"
 
 namespace vitrum {
 using intervals::not_negative, intervals::positive;
+using schema::required;
 
-std::span<const ParameterInfo<ElasticParameters>> ElasticParameters::describe() {
+schema::Fields<ElasticParameters> ElasticParameters::rows() {
   using P = ElasticParameters;
-  static constexpr std::array<ParameterInfo<P>, 3> table{{
-      {"density", &P::density, "kg/m^3", {}, positive, "mass density"},
-      {"young", &P::young, "Pa", {}, positive, "Young's modulus"},
-      {"poisson", &P::poisson, "1", {}, {-1.0, 0.5, true, true}, "Poisson's ratio"},
-  }};
-  return table;
+  return {
+      {"density", &P::density, "kg/m^3", positive, "mass density", required},
+      {"young", &P::young, "Pa", positive, "Young's modulus", required},
+      {"poisson", &P::poisson, "1", {-1.0, 0.5, true, true}, "Poisson's ratio", required},
+  };
 }
 
-std::span<const ParameterInfo<DamageParameters>> DamageParameters::describe() {
+schema::Fields<DamageParameters> DamageParameters::rows() {
   using P = DamageParameters;
-  static constexpr std::array<ParameterInfo<P>, 4> table{{
-      {"toughness", &P::toughness, "Pa m^0.5", {}, positive, "fracture toughness K_IC, eq. 7"},
-      {"k", &P::k, "1/m^3", {}, positive, "flaw density parameter k, eq. 7"},
-      {"m", &P::m, "1", {}, {1.0, 100.0, true}, "exponent m of the mean strain, eq. 7"},
-      {"rate_floor", &P::rate_floor, "1/s", 1.0, positive, "least strain rate that enters eq. 7"},
-  }};
-  return table;
+  return {
+      {"toughness", &P::toughness, "Pa m^0.5", positive, "fracture toughness K_IC, eq. 7", required},
+      {"k", &P::k, "1/m^3", positive, "flaw density parameter k, eq. 7", required},
+      {"m", &P::m, "1", {1.0, 100.0, true}, "exponent m of the mean strain, eq. 7", required},
+      {"rate_floor", &P::rate_floor, "1/s", positive, "least strain rate that enters eq. 7"},
+  };
 }
 
-std::span<const ParameterInfo<DruckerPragerParameters>> DruckerPragerParameters::describe() {
+schema::Fields<DruckerPragerParameters> DruckerPragerParameters::rows() {
   using P = DruckerPragerParameters;
-  static constexpr std::array<ParameterInfo<P>, 2> table{{
-      {"yield", &P::yield, "Pa", {}, positive, "yield strength at zero pressure sigma_y, eq. 19"},
-      {"beta", &P::beta, "1", {}, not_negative, "pressure sensitivity beta, eq. 19"},
-  }};
-  return table;
+  return {
+      {"yield", &P::yield, "Pa", positive, "yield strength at zero pressure sigma_y, eq. 19", required},
+      {"beta", &P::beta, "1", not_negative, "pressure sensitivity beta, eq. 19", required},
+  };
 }
 
-std::span<const ParameterInfo<VonMisesParameters>> VonMisesParameters::describe() {
+schema::Fields<VonMisesParameters> VonMisesParameters::rows() {
   using P = VonMisesParameters;
-  static constexpr std::array<ParameterInfo<P>, 4> table{{
-      {"yield", &P::yield, "Pa", {}, positive, "yield strength sigma_y, eq. 21"},
-      {"peak", &P::peak, "Pa", {}, positive, "peak strength sigma_p, eq. 21"},
-      {"hardening", &P::hardening, "Pa", {}, not_negative, "hardening modulus E_h, eq. 21"},
-      {"softening", &P::softening, "Pa", {}, not_negative, "softening modulus E_s, eq. 21"},
-  }};
-  return table;
+  return {
+      {"yield", &P::yield, "Pa", positive, "yield strength sigma_y, eq. 21", required},
+      {"peak", &P::peak, "Pa", positive, "peak strength sigma_p, eq. 21", required},
+      {"hardening", &P::hardening, "Pa", not_negative, "hardening modulus E_h, eq. 21", required},
+      {"softening", &P::softening, "Pa", not_negative, "softening modulus E_s, eq. 21", required},
+  };
 }
 
-std::span<const ParameterInfo<DecohesionParameters>> DecohesionParameters::describe() {
+schema::Fields<DecohesionParameters> DecohesionParameters::rows() {
   using P = DecohesionParameters;
-  static constexpr std::array<ParameterInfo<P>, 4> table{{
-      {"opening", &P::opening, "m", {}, positive, "reference decohesion u0, eq. 15"},
-      {"q", &P::q, "1", 1.0, {0.0, 100.0, true}, "exponent q of the softening, eq. 13"},
-      {"mode_ratio", &P::mode_ratio, "1", {}, positive, "C_m = tau_tp / tau_np, eq. 18"},
-      {"viscosity", &P::viscosity, "s", 0.0, not_negative,
+  return {
+      {"opening", &P::opening, "m", positive, "reference decohesion u0, eq. 15", required},
+      {"q", &P::q, "1", {0.0, 100.0, true}, "exponent q of the softening, eq. 13"},
+      {"mode_ratio", &P::mode_ratio, "1", positive, "C_m = tau_tp / tau_np, eq. 18", required},
+      {"viscosity", &P::viscosity, "s", not_negative,
        "viscosity eta of eta lambda' = <f>/U0; 0: a snap-back releases at once"},
-  }};
-  return table;
+  };
 }
 
 std::vector<Variable> damage_variables() {

@@ -2,8 +2,8 @@
 #include <span>
 
 #include "materials/composite/von_mises.hpp"
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
+#include "schema/fields.hpp"
 
 namespace vitrum {
 
@@ -13,7 +13,7 @@ struct DruckerPragerParameters {
   double beta = 0.0;        ///< pressure sensitivity
   bool associated = false;  ///< flow = "associated"; otherwise "isochoric"
 
-  static std::span<const ParameterInfo<DruckerPragerParameters>> describe();
+  static schema::Fields<DruckerPragerParameters> rows();
 };
 
 /// The law of eq. 19, q - (sigma_y + beta P) = 0, where P >= 0. (The squared form of the paper has a second

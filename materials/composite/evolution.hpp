@@ -52,6 +52,7 @@ class CompositeEvolution final : public CompositeModes,
   using Models::start_decohesion;
   using Models::stored_energy;
   using Models::strain_left_by_faces;
+  using Models::stress;
   using Models::surface_acts;
   using Models::traction;
   using Models::von_mises_;

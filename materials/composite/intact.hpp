@@ -39,7 +39,7 @@ double CompositeClosedForm<D, Y, C>::advance_intact(CompositeState& s, const Sym
     if constexpr (C) {
       if (localises) {
         start_decohesion(leg.tension, s.crack_density > leg.start.crack_density, s);
-        report.record(EventKind::localisation, done);
+        report.record(EventKind::localisation, done, stress(s));
         return done;
       }
     }
@@ -58,7 +58,7 @@ void CompositeClosedForm<D, Y, C>::release_excess_shear(CompositeState& s, doubl
   const double excess = yield_function(s, moduli);
   if (!(excess > tolerance::on_surface * moduli.shear * norm(deviator(s.elastic_strain)))) return;
   report.dissipation.plastic += flow(s, moduli, excess);
-  report.record(EventKind::yield, done);
+  report.record(EventKind::yield, done, stress(s));
 }
 
 /// The state after a fraction of a leg: damage from the mean strain (secant), then the return to the yield
@@ -233,7 +233,7 @@ void CompositeClosedForm<D, Y, C>::record_events([[maybe_unused]] const Leg& leg
   [[maybe_unused]] const auto of_increment = [done](double f) { return done + f * (1.0 - done); };
   if constexpr (D)
     if (leg.start.crack_density == 0.0 && end.crack_density > 0.0)
-      report.record(EventKind::damage, of_increment(0.0));
+      report.record(EventKind::damage, of_increment(0.0), stress(leg.start));
   if constexpr (Y != Yielding::none) {
     if (end.plastic_strain <= leg.start.plastic_strain) return;
     const Moduli moduli = secant(leg.tension, leg.start.crack_density);
@@ -249,14 +249,15 @@ void CompositeClosedForm<D, Y, C>::record_events([[maybe_unused]] const Leg& leg
       const double at = yields(0.0)            ? 0.0
                         : yields(end_fraction) ? first_reached(0.0, end_fraction, yields)
                                                : end_fraction;
-      report.record(EventKind::yield, of_increment(at));
+      report.record(EventKind::yield, of_increment(at), stress(state_along(leg, at).state));
     }
   }
   if constexpr (Y == Yielding::von_mises) {
     const double peak = von_mises_.peak_strain();
     if (leg.start.plastic_strain < peak && end.plastic_strain >= peak) {
       const auto past = [&](double f) { return state_along(leg, f).state.plastic_strain >= peak; };
-      report.record(EventKind::peak, of_increment(first_reached(0.0, end_fraction, past)));
+      const double at = first_reached(0.0, end_fraction, past);
+      report.record(EventKind::peak, of_increment(at), stress(state_along(leg, at).state));
     }
   }
 }

@@ -108,7 +108,8 @@ void CompositeEvolution<D, Y, C>::fall_with_plane(CompositeMode& mode, Composite
         s = before;
         flow_with_plane(s, m, part * amount);
       }
-      if (to_end && !inside && mode.hardening_modulus > 0.0) report.record(EventKind::peak, fraction);
+      if (to_end && !inside && mode.hardening_modulus > 0.0)
+        report.record(EventKind::peak, fraction, stress(s));
     }
     const double surface =
         decohesion_.surface_energy(decohesion, s.decohesion, s.cohesive_strength) / s.effective_length;
@@ -140,7 +141,7 @@ void CompositeEvolution<D, Y, C>::localise(CompositeMode& mode, CompositeState& 
     start_decohesion(mode.tension, mode.damaging, s);
     mode.damaging = false;
     mode.plane = CompositeMode::Plane::held;
-    report.record(EventKind::localisation, fraction);
+    report.record(EventKind::localisation, fraction, stress(s));
   }
 }
 

@@ -20,7 +20,7 @@ void CompositeClosedForm<D, Y, C>::advance_localised(CompositeState& s, const Sy
     const double left = 1.0 - fraction;
     if (is_separated(s)) {
       const double closed_at = advance_separated(s, left * strain);
-      if (closed_at >= 0.0) report.record(EventKind::closure, at(fraction + left * closed_at));
+      if (closed_at >= 0.0) report.record(EventKind::closure, at(fraction + left * closed_at), stress(s));
       fraction = 1.0;
     } else {
       Jump jump = Jump::none;
@@ -60,7 +60,7 @@ void CompositeClosedForm<D, Y, C>::release_plane_at_once(CompositeState& s, Jump
   jump == Jump::snap_back ? snap_back(s, moduli, report.dissipation)
                           : separate(s, moduli, report.dissipation);
   CompositeMode mode = localised_mode(s);
-  if (is_separated(s)) report.record(EventKind::separation, fraction);
+  if (is_separated(s)) report.record(EventKind::separation, fraction, stress(s));
   fall_to_admissible_stress(mode, s, fraction, report, !flows);
 }
 
@@ -177,8 +177,9 @@ void CompositeClosedForm<D, Y, C>::flow_behind_crack(CompositeState& s, double o
   if constexpr (has_yield) {
     const double flowed = s.plastic_strain, gap = s.opening_n;
     flow_behind_crack(s, outside_before, report.dissipation);
-    if (flowed == 0.0 && s.plastic_strain > 0.0) report.record(EventKind::yield, fraction);
-    if (is_separated(s) && gap > 0.0 && s.opening_n == 0.0) report.record(EventKind::closure, fraction);
+    if (flowed == 0.0 && s.plastic_strain > 0.0) report.record(EventKind::yield, fraction, stress(s));
+    if (is_separated(s) && gap > 0.0 && s.opening_n == 0.0)
+      report.record(EventKind::closure, fraction, stress(s));
   }
 }
 

@@ -44,6 +44,7 @@ class CompositeModels {
     return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
   }
   double stored_energy(const CompositeState& s) const { return secant_moduli(s).energy(s.elastic_strain); }
+  SymmetricTensor stress(const CompositeState& s) const { return secant_moduli(s).stress(s.elastic_strain); }
 
  protected:
   Moduli secant(bool tension, double crack_density) const {

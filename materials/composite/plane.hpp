@@ -182,7 +182,7 @@ template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::enter_separated(CompositeMode& mode, const CompositeState& s, double fraction,
                                                PointReport& report) const {
   mode.plane = s.opening_n > 0.0 ? CompositeMode::Plane::open : CompositeMode::Plane::closed;
-  report.record(EventKind::separation, fraction);
+  report.record(EventKind::separation, fraction, stress(s));
 }
 
 }  // namespace vitrum

@@ -40,14 +40,14 @@ void CompositeClosedForm<D, Y, C>::damage_at_once(CompositeState& s, PointReport
     localises = is_critical_at(density);
     if (localises) density = first_reached(s.crack_density, density, is_critical_at);
   }
-  if (s.crack_density == 0.0) report.record(EventKind::damage, 0.0);
+  if (s.crack_density == 0.0) report.record(EventKind::damage, 0.0, stress(s));
   const double stored = stored_energy(s);
   s.crack_density = density;
   report.dissipation.damage += stored - stored_energy(s);
   if constexpr (C) {
     if (!localises) return;
     start_decohesion(true, true, s);
-    report.record(EventKind::localisation, 0.0);
+    report.record(EventKind::localisation, 0.0, stress(s));
   }
 }
 

@@ -41,7 +41,7 @@ void CompositeEvolution<D, Y, C>::transition(CompositeMode& mode, CompositeGuard
       break;
     case CompositeGuard::strength_branch:
       s.plastic_strain = mode.branch_end;
-      if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction);
+      if (mode.hardening_modulus >= 0.0) report.record(EventKind::peak, fraction, stress(s));
       break;
     case CompositeGuard::localisation:
       localise(mode, s, fraction, report);
@@ -68,7 +68,7 @@ void CompositeEvolution<D, Y, C>::transition(CompositeMode& mode, CompositeGuard
     case CompositeGuard::closure:
       s.opening_n = 0.0;
       mode.plane = Plane::closed;
-      report.record(EventKind::closure, fraction);
+      report.record(EventKind::closure, fraction, stress(s));
       break;
     case CompositeGuard::opening:
       mode.plane = Plane::open;
@@ -112,7 +112,7 @@ void CompositeEvolution<D, Y, C>::select_models(CompositeMode& mode, std::option
                may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
     const bool runs_away = select_flow_and_opening(mode, s, path, may_flow, may_open);
-    if (yields && mode.flowing) report.record(EventKind::yield, fraction), yields = false;
+    if (yields && mode.flowing) report.record(EventKind::yield, fraction, stress(s)), yields = false;
     if (reached && !mode.flowing) step_inside_surface(mode, s);
     if (jumps == most_jumps) {
       // What still falls does so when the next increment begins.
@@ -178,7 +178,7 @@ void CompositeEvolution<D, Y, C>::select_damage(CompositeMode& mode, CompositeSt
   const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
   const bool reached = mode.damaging || target >= s.crack_density * (1.0 - tolerance::rounding);
   const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
-  if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction);
+  if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction, stress(s));
   mode.damaging = grows;
 }
 

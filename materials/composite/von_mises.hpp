@@ -4,8 +4,8 @@
 #include <limits>
 #include <span>
 
-#include "materials/description.hpp"
 #include "materials/elasticity.hpp"
+#include "schema/fields.hpp"
 #include "tensor/vector.hpp"
 
 namespace vitrum {
@@ -17,7 +17,7 @@ struct VonMisesParameters {
   double hardening = 0.0;  ///< E_h, Pa
   double softening = 0.0;  ///< E_s, Pa; 0: perfectly plastic from the peak on
 
-  static std::span<const ParameterInfo<VonMisesParameters>> describe();
+  static schema::Fields<VonMisesParameters> rows();
 };
 
 /// What a plastic return did.

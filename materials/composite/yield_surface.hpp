@@ -93,7 +93,7 @@ void CompositeModels<D, Y, C>::fall_to_admissible_stress(CompositeMode& mode, Co
   if constexpr (has_yield) {
     constexpr int most_turns = 64;
     for (int turn = 0; turn < most_turns && fall_onto_surface(mode, s, report.dissipation); ++turn) {
-      if (turn == 0 && is_yield) report.record(EventKind::yield, fraction);
+      if (turn == 0 && is_yield) report.record(EventKind::yield, fraction, stress(s));
       if constexpr (C) {
         if (!is_overloaded(mode, s)) break;
         snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);

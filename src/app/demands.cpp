@@ -38,6 +38,19 @@ double outputs_of(const Scene& scene) {
   return multiples(scene, scene.output.every) + (scene.output.every ? 2.0 : 1.0);
 }
 
+/// Bytes of the histories, in their files and in tables.h5. (How many events there will be is not known.)
+double tables_space(const Scene& scene, const System& system) {
+  constexpr double of_row = 250.0;
+  std::size_t rows = system.bodies.size() + scene.boundaries.size();
+  for (const ProbeDefinition& probe : scene.probes)
+    rows += std::holds_alternative<Box>(probe.place) ? 1 : probe.points().size();
+  if (scene.contact.method == ContactMethod::bodies)
+    rows += system.bodies.size() * (system.bodies.size() - 1) / 2;
+  const double times =
+      scene.output.history_every ? multiples(scene, scene.output.history_every) + 2.0 : outputs_of(scene);
+  return of_row * times * static_cast<double>(rows);
+}
+
 /// What an earlier run's outputs and checkpoint take.
 double size_of_outputs(const std::filesystem::path& folder) {
   std::error_code failure;
@@ -175,7 +188,7 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
     of_checkpoint += static_cast<double>(body.particles.size) *
                      (4.0 + 8.0 * (13.0 + static_cast<double>(body.material->columns().size())));
   // Of the checkpoint there are two while it is renewed.
-  return outputs_of(scene) * of_output + 60.0 * particles +
+  return outputs_of(scene) * of_output + tables_space(scene, system) + 60.0 * particles +
          2.0 * (scene.output.checkpoint_every ? of_checkpoint : 0.0);
 }
 

@@ -23,6 +23,7 @@ void visit_numbers(State& s, Visit&& visit) {
   visit("integrator.rhs_evaluations", c.rhs_evaluations);
   visit("integrator.newton_iterations", c.newton_iterations);
   visit("integrator.factorisations", c.factorisations);
+  visit("integrator.factor_entries", c.factor_entries);
   visit("integrator.step_min", c.step_min);
   visit("integrator.step_max", c.step_max);
   visit("integrator.limited_by_stability", c.limited_by_stability);

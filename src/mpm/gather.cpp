@@ -164,12 +164,6 @@ void gather(System& system, Gather what, double duration) {
   sweep(system, {{gather_pass(system, what, duration)}});
 }
 
-void gather_and_update_stress(System& system, Gather what, double duration) {
-  StressUpdate stress(system, duration);
-  sweep(system, {{gather_pass(system, what, duration, &stress)}});
-  stress.book();
-}
-
 void gather_rates(System& system, std::span<const ParticleRates> rates) {
   gather_to<RatesPlan>(system, rates);
 }

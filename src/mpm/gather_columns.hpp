@@ -26,7 +26,7 @@ inline double largest_size(const double* values, std::size_t size) {
 /// Strain increments of a chunk: R^T D R at the middle of the increment, R turning from 0 to `spin`.
 template <bool axisymmetric, bool small, class P>
 void store_turned(std::size_t size, const Interpolated<P>& at, const double* spin, const double* radius,
-                  double cell, double duration, const std::array<double*, 4>& to) {
+                  double cell, double duration, const TensorPointers<double>& to) {
   const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated();
   double *e0 = to[0], *e1 = to[1], *e2 = to[2], *e3 = to[3];
   const double scale = duration / cell;
@@ -44,7 +44,7 @@ void store_turned(std::size_t size, const Interpolated<P>& at, const double* spi
 /// Strain and spin increments of a chunk over `duration`.
 template <bool axisymmetric, class P>
 void interpolate_strain(std::size_t size, const Interpolated<P>& at, const ColumnReader& radius, double cell,
-                        double duration, const std::array<double*, 4>& to, double* spin) {
+                        double duration, const TensorPointers<double>& to, double* spin) {
   const double *r = at.along_r(), *z = at.along_z();
   const double half_scale = 0.5 * duration / cell;
 #pragma GCC ivdep
@@ -144,7 +144,7 @@ void store_gradient(const Chunk& chunk, const ParticleGradient& to, const Interp
 
 template <bool axisymmetric, bool small, class P>
 void store_turned_rates(std::size_t size, const Interpolated<P>& at, const double* turn, const double* radius,
-                        double cell, const std::array<double*, 4>& to, double* spin) {
+                        double cell, const TensorPointers<double>& to, double* spin) {
   const double *r = at.along_r(), *z = at.along_z(), *v = at.differentiated(), per_cell = 1.0 / cell;
   double *e0 = to[0], *e1 = to[1], *e2 = to[2], *e3 = to[3];
 #pragma GCC ivdep
@@ -166,7 +166,7 @@ void store_gradient(const Chunk& chunk, const ParticleRates& to, const Interpola
       rz(chunk, to.strain[3]), spin(chunk, to.spin);
   const ColumnReader turns(chunk, to.turn);
   const double *turn = turns.data(), largest = largest_size(turn, chunk.size());
-  const std::array<double*, 4> strain{rr.data(), zz.data(), tt.data(), rz.data()};
+  const TensorPointers<double> strain{rr.data(), zz.data(), tt.data(), rz.data()};
   if (largest <= small_angle)
     store_turned_rates<axisymmetric, true>(chunk.size(), at, turn, radius.data(), cell, strain, spin.data());
   else

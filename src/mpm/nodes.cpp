@@ -104,15 +104,6 @@ void project_velocities(System& system) {
   });
 }
 
-void apply_forces(System& system, double duration) {
-  system.team->for_each_chunk(system.grid.blocks().size(), [&](std::size_t block) {
-    accelerate_block(system.grid, block, block_vector(system.grid, block, Field::force_0), system.gravity,
-                     duration);
-  });
-  system.record.external_work +=
-      duration * external_power_of_all(system, Field::velocity_0, Field::new_velocity_0);
-}
-
 double accelerate(System& system) {
   Grid& grid = system.grid;
   const double* mass = grid.field(Field::mass);

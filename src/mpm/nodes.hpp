@@ -3,8 +3,8 @@
 
 #include "mpm/system.hpp"
 
-/// The parts of project_velocities and apply_forces (transfer.hpp) for one block, for passes that go on with
-/// a block's nodes as soon as these are summed. momentum, force: of its nodes only.
+/// From sums to velocities, block by block, for passes that go on with a block's nodes as soon as these are
+/// summed (Nodes::moved, transfer.hpp). momentum, force: of its nodes only.
 namespace vitrum::mpm {
 
 using BlockVector = std::array<const double*, 2>;

@@ -15,12 +15,12 @@ namespace vitrum {
 /// The particles of one body, structure of arrays; every non-empty array has `size` entries.
 struct Particles {
   std::size_t size = 0;
-  std::array<std::vector<double>, 2> position;  ///< m, (r, z) or (x, y)
-  std::array<std::vector<double>, 2> velocity;  ///< m/s
-  std::vector<double> mass;  ///< kg per radian (axisymmetric) or per metre (plane strain); constant
-  std::array<std::vector<double>, 4> elastic_strain;  ///< (rr, zz, tt, rz)
-  std::vector<std::vector<double>> variables;         ///< in the order of Material::columns()
-  std::vector<std::size_t> flipping;                  ///< those whose sign a mirror across the axis changes
+  VectorColumns position;        ///< m, (r, z) or (x, y)
+  VectorColumns velocity;        ///< m/s
+  std::vector<double> mass;      ///< kg per radian (axisymmetric) or per metre (plane strain); constant
+  TensorColumns elastic_strain;  ///< (rr, zz, tt, rz)
+  std::vector<std::vector<double>> variables;  ///< in the order of Material::columns()
+  std::vector<std::size_t> flipping;           ///< those whose sign a mirror across the axis changes
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
   // Where bodies have contact (mpm/contact), else empty: what patches of the surface follow.
   std::vector<double> turn;      ///< rad since the start, counter-clockwise from r to z
@@ -28,11 +28,11 @@ struct Particles {
 
   // Scratch, empty where passes take particles over their increments at once (mpm/transfer.hpp): strain
   // increment in the frame that turns with the particle, and turn.
-  std::array<std::vector<double>, 4> strain_increment;
+  TensorColumns strain_increment;
   std::vector<double> spin_increment;  ///< rad, counter-clockwise from r to z
   /// Stress follows from elastic strain and variables (Material::stress). Not empty: an integrator tries a
   /// state (mpm/trial.hpp), whose stress is this instead, Pa, (rr, zz, tt, rz).
-  std::array<std::vector<double>, 4> tried_stress;
+  TensorColumns tried_stress;
   /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
   /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
   std::vector<double> tried_stress_zr;

@@ -7,6 +7,6 @@
 namespace vitrum::mpm {
 
 /// Stress of a body's particles in the order of their columns, Pa, (rr, zz, tt, rz).
-std::array<std::vector<double>, 4> stress_of(const Body& body);
+TensorColumns stress_of(const Body& body);
 
 }  // namespace vitrum::mpm

@@ -22,18 +22,16 @@ enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
 /// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
 /// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
-/// until: whether nodes keep their sums, or go on at once as by project_velocities and (with forces, for
-/// `duration` seconds) apply_forces; momenta and forces then reach no memory.
+/// until: whether nodes keep their sums, or go on at once as by project_velocities and, with forces, to their
+/// new velocities after `duration` seconds under these and gravity (held components keep their prescribed
+/// ones). Momenta and forces then reach no memory, and the work of gravity and of prescribed velocities is
+/// added to system.record.external_work.
 enum class Nodes { sums, moved };
 Pass scatter_pass(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 void scatter(System& system, Scatter what, Nodes until = Nodes::sums, double duration = 0.0);
 
 /// Nodal velocities from mass and momentum; held components get their prescribed values.
 void project_velocities(System& system);
-/// New nodal velocities after `duration` seconds under the internal forces and gravity; held components keep
-/// their prescribed values. Adds the work of gravity and of prescribed velocities to
-/// system.record.external_work.
-void apply_forces(System& system, double duration);
 /// Whether gravity or a prescribed velocity can do work.
 bool has_external_work(const System& system);
 /// Nodal accelerations a_i = f_i / m_i + g, 0 for held components. Returns the power of gravity and of
@@ -54,12 +52,11 @@ enum class Gather {
 /// update_stress would; to be booked afterwards.
 Pass gather_pass(System& system, Gather what, double duration, StressUpdate* stress = nullptr);
 void gather(System& system, Gather what, double duration);
-void gather_and_update_stress(System& system, Gather what, double duration);
 
 /// Where the rates of one body's particles go: arrays of one entry a particle.
 struct ParticleRates {
   std::array<double*, 2> position, velocity;  ///< m/s, m/s^2
-  std::array<double*, 4> strain;              ///< 1/s, in the frame that has turned by `turn`
+  TensorPointers<double> strain;              ///< 1/s, in the frame that has turned by `turn`
   double* spin;                               ///< rad/s
   const double* turn;                         ///< rad, counter-clockwise from r to z, in
 };

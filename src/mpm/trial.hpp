@@ -8,10 +8,10 @@ namespace vitrum::mpm {
 
 /// Columns of one body that a trial replaces. Empty columns of the state are not replaced.
 struct TrialColumns {
-  std::array<std::vector<double>, 2> position, velocity;
-  std::array<std::vector<double>, 4> elastic_strain;
-  std::array<std::vector<double>, 4> stress;  ///< Particles::tried_stress
-  std::vector<double> stress_zr;              ///< nominal stress only
+  VectorColumns position, velocity;
+  TensorColumns elastic_strain;
+  TensorColumns stress;           ///< Particles::tried_stress
+  std::vector<double> stress_zr;  ///< nominal stress only
 };
 
 /// A state that an integrator tries out without touching the committed one: of every body the columns that a

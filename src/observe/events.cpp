@@ -31,7 +31,8 @@ void EventLog::step(const System& system, double duration) {
     const Body& body = system.bodies[e.body];
     const Particles& p = body.particles;
     table_.row(system.time - duration * (1.0 - e.event.fraction), body.name, p.identity[e.particle],
-               event_name(e.event.kind), p.position[0][e.particle], p.position[1][e.particle]);
+               event_name(e.event.kind), p.position[0][e.particle], p.position[1][e.particle],
+               e.event.stress);
   }
 }
 

@@ -16,7 +16,10 @@ class EventLog final : public Observer {
                                        {"particle", "1", "number of the particle in its body, from 0"},
                                        {"kind", "", "what happened: `damage`, `yield`, ..."},
                                        {"r", "m", "place of the particle (`x` in plane strain)"},
-                                       {"z", "m", "(`y` in plane strain)"}};
+                                       {"z", "m", "(`y` in plane strain)"},
+                                       {"value", "Pa",
+                                        "largest principal stress that the event left; at `localisation` the "
+                                        "strength"}};
   static constexpr TableInfo table_info{"events", "every event of the local equations, in order of time",
                                         columns};
   static std::unique_ptr<Observer> make(const Scene& scene, const System& system);

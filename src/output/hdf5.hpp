@@ -76,7 +76,6 @@ class Group {
   /// elements than the file can hold.
   Extent extent(const std::string& name) const;
   std::vector<double> read_doubles(const std::string& name) const;
-  std::vector<std::int64_t> read_integers(const std::string& name) const;
   std::vector<std::uint32_t> read_indices(const std::string& name) const;
   std::string read_text(const std::string& name) const;
   std::vector<std::string> read_texts(const std::string& name) const;

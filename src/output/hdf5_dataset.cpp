@@ -89,9 +89,6 @@ Extent Group::extent(const std::string& name) const {
 std::vector<double> Group::read_doubles(const std::string& name) const {
   return read_array<double>(handle_.id(), name, member(name));
 }
-std::vector<std::int64_t> Group::read_integers(const std::string& name) const {
-  return read_array<std::int64_t>(handle_.id(), name, member(name));
-}
 std::vector<std::uint32_t> Group::read_indices(const std::string& name) const {
   return read_array<std::uint32_t>(handle_.id(), name, member(name));
 }

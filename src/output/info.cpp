@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "observe/registry.hpp"
 #include "output/json_file.hpp"
 #include "output/result_reader.hpp"
 #include "scene/toml_text.hpp"
@@ -51,6 +53,22 @@ Json series_of(const ResultReader& result) {
   return series;
 }
 
+/// Histories and events beside the result, as far as they have been written.
+Json tables_of(const ResultReader& result) {
+  Json tables = Json::object();
+  for (const ObserverKind& kind : observer_kinds()) {
+    if (kind.table == nullptr) continue;
+    const std::string file = fmt::format("{}.csv", kind.table->name);
+    std::ifstream lines(result.path().parent_path() / file);
+    std::size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) ++rows;
+    if (rows == 0) continue;
+    tables[std::string(kind.table->name)] = {
+        {"file", file}, {"rows", rows - 1}, {"description", std::string(kind.table->description)}};
+  }
+  return tables;
+}
+
 /// Status and message of the summary beside the result; null where there is none (the run was killed or is
 /// under way).
 Json summary_of(const std::filesystem::path& directory) {
@@ -71,7 +89,7 @@ Json describe(const ResultReader& result) {
     steps.push_back({{"name", step.name}, {"time", number(step.time)}, {"step_index", step.step_index}});
   return {{"file", result.path().string()}, {"title", result.title()}, {"provenance", provenance},
           {"bodies", bodies_of(result)},    {"outputs", steps},        {"fields", fields_of(result)},
-          {"series", series_of(result)}};
+          {"series", series_of(result)},    {"tables", tables_of(result)}};
 }
 
 /// A text may hold anything, also what would give orders to a terminal.
@@ -122,6 +140,10 @@ std::string readable(const Json& info) {
   for (const auto& [name, entry] : info["series"].items())
     text += fmt::format("  {:<24} {:>24} {:<8} {}\n", name, plain(entry["last"]), plain(entry["unit"]),
                         plain(entry["description"]));
+  text += "tables (rows)\n";
+  for (const auto& [name, table] : info["tables"].items())
+    text += fmt::format("  {:<24} {:>24}          {}\n", plain(table["file"]), plain(table["rows"]),
+                        plain(table["description"]));
   return text;
 }
 

@@ -51,6 +51,7 @@ Json integrator_block(const RunSummary& summary) {
           {"rhs_evaluations", counters.rhs_evaluations},
           {"newton_iterations", counters.newton_iterations},
           {"factorisations", counters.factorisations},
+          {"factor_entries", counters.factor_entries},
           {"step_min", step(counters.step_min)},
           {"step_max", step(counters.step_max)},
           {"limited_by",

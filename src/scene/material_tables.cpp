@@ -1,5 +1,3 @@
-#include <map>
-
 #include "materials/registry.hpp"
 #include "scene/choices.hpp"
 #include "scene/presets.hpp"
@@ -14,23 +12,10 @@ using schema::required;
 using schema::Table;
 using schema::table_of;
 
-/// The numbers of a law.
-template <class Parameters>
-Fields<Parameters> parameter_rows() {
-  Fields<Parameters> rows;
-  for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
-    Field<Parameters> row(info.name, info.member, info.unit, info.bounds, info.description,
-                          info.fallback ? schema::Need::optional : required);
-    if (info.fallback) row.fallback = *info.fallback;
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 /// The numbers of a law, then its keys of other kinds.
 template <class Parameters>
 Table model_table(std::string_view name, std::string_view text, const Fields<Parameters>& others) {
-  Fields<Parameters> rows = parameter_rows<Parameters>();
+  Fields<Parameters> rows = Parameters::rows();
   rows.insert(rows.end(), others.begin(), others.end());
   return table_of("[material.NAME." + std::string(name) + ']', text, rows);
 }
@@ -102,45 +87,16 @@ const Table& decohesion_table() {
   return table;
 }
 
-/// A number, or a list of one or more, of a registered law: its place in LawParameters.
-Field<LawParameters> law_row(const ParameterRow& parameter, std::size_t place) {
-  using L = LawParameters;
-  const auto get = [place, list = parameter.is_list](const L& law) -> std::optional<schema::Value> {
-    if (place >= law.values.size()) return std::nullopt;
-    return list ? schema::Value(law.values[place]) : schema::Value(law.values[place].front());
-  };
-  const auto set = [place](L& law, const schema::Value& value) {
-    const auto* numbers = std::get_if<schema::Numbers>(&value);
-    law.values[place] = numbers != nullptr ? *numbers : schema::Numbers{std::get<double>(value)};
-  };
-  auto row =
-      Field<L>::of(parameter.name, {parameter.is_list ? schema::Kind::numbers : schema::Kind::number},
-                   parameter.description, parameter.fallback ? schema::Need::optional : required, get, set);
-  row.unit = parameter.unit;
-  row.bounds = parameter.bounds;
-  if (parameter.fallback) row.fallback = *parameter.fallback;
-  return row;
-}
-
-const Table& law_table(const RegisteredLaw& law) {
-  static std::map<std::string, Table> tables;
-  if (const auto found = tables.find(law.table); found != tables.end()) return found->second;
-  Fields<LawParameters> rows;
-  for (const ParameterRow& parameter : law.parameters) rows.push_back(law_row(parameter, rows.size()));
-  return tables[law.table] = table_of("[material.NAME." + law.table + ']', law.text + '.', rows);
-}
-
 Field<MaterialParameters> law_field(const RegisteredLaw& law) {
   using M = MaterialParameters;
-  Field<M> field(law.table, &M::law, law_table(law), law.text + "; excludes the models above");
-  field.open = [&law](void* material, const std::string&) -> void* {
-    auto& parameters = static_cast<M*>(material)->law;
-    parameters = LawParameters{law.table, std::vector<std::vector<double>>(law.parameters.size(), {0.0})};
-    return &*parameters;
+  Field<M> field(law.table, &M::law, law.keys, law.text + "; excludes the models above");
+  field.open = [&law](void* material, const std::string&) {
+    const LawParameters& own = static_cast<M*>(material)->law.emplace(law.defaults(law.table));
+    return const_cast<void*>(law.values(own));  // the material is not constant
   };
   field.look = [&law](const void* material, std::size_t n) -> const void* {
     const auto& parameters = static_cast<const M*>(material)->law;
-    return n == 0 && parameters && parameters->table == law.table ? &*parameters : nullptr;
+    return n == 0 && parameters && parameters->table == law.table ? law.values(*parameters) : nullptr;
   };
   return field;
 }
@@ -163,7 +119,7 @@ Field<MaterialParameters> preset_row() {
 const Table& material_table() {
   using M = MaterialParameters;
   static const Table table = [] {
-    Fields<M> rows = schema::joined({}, &M::elastic, parameter_rows<ElasticParameters>());
+    Fields<M> rows = schema::joined({}, &M::elastic, ElasticParameters::rows());
     rows.push_back(preset_row());
     const Fields<M> models{
         {"damage", &M::damage, damage_table(), "rate-dependent tensile damage; absent: none"},

@@ -1,6 +1,7 @@
 #pragma once
 #include <type_traits>
 
+#include "schema/fields.hpp"
 #include "schema/table.hpp"
 
 namespace vitrum::schema {
@@ -239,9 +240,6 @@ class Field : public Key {
     }
   }
 };
-
-template <class Owner>
-using Fields = std::vector<Field<Owner>>;
 
 /// Rows, and behind them those of a part whose keys stand in the same table.
 template <class Owner, class Part>

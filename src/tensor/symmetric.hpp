@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 /// For the few functions that loops over particles are made of: a loop with a call in it is not vectorised.
@@ -86,6 +87,11 @@ inline InPlanePrincipal in_plane_principal(const SymmetricTensor& a) {
   const double radius = std::hypot(half, a.rz);
   const double angle = 0.5 * std::atan2(a.rz, half);
   return {centre + radius, centre - radius, std::cos(angle), std::sin(angle)};
+}
+
+/// Largest principal value; the hoop direction is always principal.
+inline double largest_principal(const SymmetricTensor& a) {
+  return std::max(in_plane_principal(a).major, a.tt);
 }
 
 }  // namespace vitrum

@@ -17,9 +17,7 @@ RunningScene prepared(benchmark::State& state) {
   RunningScene run(scene);
   run.advance(2, scene.end);
   mpm::refresh_grid(run.system, mpm::Storage::sorted);
-  mpm::scatter(run.system, mpm::Scatter::momentum_and_force);
-  mpm::project_velocities(run.system);
-  mpm::apply_forces(run.system, 1e-9);
+  mpm::scatter(run.system, mpm::Scatter::momentum_and_force, mpm::Nodes::moved, 1e-9);
   return run;
 }
 

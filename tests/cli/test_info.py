@@ -36,6 +36,18 @@ class Info(CommandLineTest):
         self.assertEqual(info["series"]["kinetic"]["last"], read_summary(out)["energy"]["kinetic"])
         self.assertNotIn("summary", json.loads(self.vitrum("info", out / "result.h5", "--json").stdout))
 
+    def test_tables(self):
+        """Rows as they stand in the files: a killed run's too."""
+        out = self.run_scene("out", *overrides(output__history_every=1e-6))
+        tables = json.loads(self.vitrum("info", out, "--json").stdout)["tables"]
+        for name in ("energy", "events", "bodies"):
+            with self.subTest(table=name):
+                rows = len((out / f"{name}.csv").read_text().splitlines()) - 1
+                self.assertEqual((tables[name]["file"], tables[name]["rows"]), (f"{name}.csv", rows))
+                self.assertRegex(self.vitrum("info", out).stdout, rf"  {name}\.csv +{rows} +\S")
+        self.assertEqual(tables["bodies"]["rows"], 2 * 21)
+        self.assertNotIn("probes", tables)
+
     def test_without_fields(self):
         info = json.loads(self.vitrum("info", self.run_scene("out", "--no-fields"), "--json").stdout)
         self.assertEqual((info["fields"], len(info["outputs"])), ({}, 11))

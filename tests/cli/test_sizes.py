@@ -116,6 +116,7 @@ class Estimates(CommandLineTest):
 
     def test_disk_space(self):
         for scene, arguments in ((impact, []), (impact, overrides(space__cell=5e-4, integrator__step=1e-8)), (plane_strain, []),
+                                 (impact, overrides(output__history_every=1e-8)),
                                  (impact, overrides(output__every=1e-7, output__checkpoint_every=1e-5))):
             estimate = json.loads(self.vitrum("check", scene, "--json", *arguments).stdout)["disk_bytes"]
             out = self.run_scene("out", "--quiet", "--force", *arguments, scene=scene)

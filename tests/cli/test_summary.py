@@ -19,7 +19,7 @@ body = {"particles": integer, "mass": number, "momentum": listing, "centre": lis
 interface = {
     "status": text, "message": or_null(str), "warnings": listing, "time": number, "particles": integer, "wall_seconds": number, "total_seconds": number, "threads": integer,
     "integrator": {"method": text, "steps": integer, "rejected": integer, "rhs_evaluations": integer,
-                   "newton_iterations": integer, "factorisations": integer, "step_min": number, "step_max": number,
+                   "newton_iterations": integer, "factorisations": integer, "factor_entries": integer, "step_min": number, "step_max": number,
                    "limited_by": {"stability": integer, "accuracy": integer, "output": integer}},
     "constitutive": {"method": text, "evaluations": integer, "cvode_solves": integer, "cvode_steps": integer,
                      "cvode_rhs": integer, "failures": integer, "events": integer},

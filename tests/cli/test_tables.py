@@ -17,7 +17,7 @@ class Events(CommandLineTest):
         out = self.run_scene("out")
         rows, summary = rows_of(out / "events.csv"), read_summary(out)
         self.assertEqual(len(rows), summary["constitutive"]["events"])
-        self.assertEqual(list(rows[0]), ["time", "body", "particle", "kind", "r", "z"])
+        self.assertEqual(list(rows[0]), ["time", "body", "particle", "kind", "r", "z", "value"])
         times = [float(row["time"]) for row in rows]
         self.assertEqual(times, sorted(times))
         self.assertTrue(0.0 <= times[0] and times[-1] <= 20e-6)
@@ -44,12 +44,23 @@ class Events(CommandLineTest):
                              if row["body"] == body and row["kind"] == "separation"}
                 self.assertEqual(separated, set(np.flatnonzero(opened[of_body == number])))
 
+    def test_value_at_localisation_is_the_strength(self):
+        """The largest principal stress is the traction on the plane, or more where the hoop direction bears more."""
+        out = self.run_scene("out")
+        with h5py.File(out / "result.h5") as result:
+            strength = list(result["steps"].values())[-1]["particles/cohesive_strength"][:]
+            strength = strength[result["particles/body"][:] == 0]
+        rows = [row for row in rows_of(out / "events.csv") if row["kind"] == "localisation" and row["body"] == "plate"]
+        ratios = np.array([float(row["value"]) / strength[int(row["particle"])] for row in rows])
+        self.assertTrue(np.all(ratios > 1.0 - 1e-9), ratios.min())
+        self.assertGreater(np.mean(ratios < 1.0 + 1e-9), 0.3)
+
     def test_the_same_in_the_result(self):
         out = self.run_scene("out")
         rows = rows_of(out / "events.csv")
         with h5py.File(out / "result.h5") as result:
             for group in (result["events"], result["tables/events"]):
-                for name in ("time", "particle", "r", "z"):
+                for name in ("time", "particle", "r", "z", "value"):
                     self.assertEqual(list(group[name][:]), [float(row[name]) for row in rows])
                 for name in ("body", "kind"):
                     names = group[f"{name}_names"].asstr()[:]
@@ -79,7 +90,7 @@ class Events(CommandLineTest):
 
     def test_names_of_places_follow_the_geometry(self):
         out = self.run_scene("out", scene=plane_strain)
-        self.assertEqual((out / "events.csv").read_text().splitlines()[0], "time,body,particle,kind,x,y")
+        self.assertEqual((out / "events.csv").read_text().splitlines()[0], "time,body,particle,kind,x,y,value")
 
     def test_a_folder_of_tables(self):
         out = self.run_scene("out")

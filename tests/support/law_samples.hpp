@@ -1,9 +1,13 @@
 #pragma once
+#include <any>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "materials/johnson_cook.hpp"
+#include "materials/johnson_holmquist.hpp"
+#include "materials/maxwell.hpp"
 #include "materials/registry.hpp"
 #include "support/material_samples.hpp"
 #include "support/minimal_law.hpp"
@@ -18,10 +22,10 @@ struct LawSample {
   double rate = 1e4;     ///< 1/s
 };
 
-/// Parameters of a registered law; keys that are absent have their default.
+/// Parameters of a registered law.
 struct RegisteredSample {
   ElasticParameters elastic;
-  std::map<std::string, std::vector<double>> values;
+  std::any values;  ///< the law's `Parameters`
   double strain = 1e-3, rate = 1e4;
 };
 
@@ -30,32 +34,34 @@ inline const std::map<std::string, RegisteredSample>& registered_samples() {
   static const std::map<std::string, RegisteredSample> samples{
       {"johnson_holmquist",  // float glass
        {{2530.0, 74.558e9, 0.22629},
-        {{"A", {0.93}},
-         {"N", {0.77}},
-         {"B", {0.088}},
-         {"M", {0.35}},
-         {"fractured_limit", {0.5}},
-         {"C", {0.003}},
-         {"T", {0.15e9}},
-         {"HEL", {5.95e9}},
-         {"PHEL", {2.92e9}},
-         {"D1", {0.053}},
-         {"D2", {0.85}},
-         {"K2", {-138.0e9}},
-         {"K3", {290.0e9}}},
+        JohnsonHolmquistParameters{.A = 0.93,
+                                   .N = 0.77,
+                                   .B = 0.088,
+                                   .M = 0.35,
+                                   .fractured_limit = 0.5,
+                                   .C = 0.003,
+                                   .T = 0.15e9,
+                                   .HEL = 5.95e9,
+                                   .PHEL = 2.92e9,
+                                   .D1 = 0.053,
+                                   .D2 = 0.85,
+                                   .K2 = -138.0e9,
+                                   .K3 = 290.0e9},
         2e-2}},
       {"johnson_cook",  // 4340 steel
        {{7830.0, 205.0e9, 0.29},
-        {{"A", {792.0e6}},
-         {"B", {510.0e6}},
-         {"n", {0.26}},
-         {"C", {0.014}},
-         {"m", {1.03}},
-         {"melting_temperature", {1793.0}},
-         {"heat_capacity", {477.0}}},
+        JohnsonCookParameters{.A = 792.0e6,
+                              .B = 510.0e6,
+                              .n = 0.26,
+                              .C = 0.014,
+                              .m = 1.03,
+                              .melting_temperature = 1793.0,
+                              .heat_capacity = 477.0},
         2e-2}},
       {"maxwell",
-       {{1070.0, 1.31e9, 0.39}, {{"ratios", {0.5, 0.3, 0.15}}, {"times", {2e-8, 1e-6, 3.0}}}, 1e-2}},
+       {{1070.0, 1.31e9, 0.39},
+        MaxwellParameters{.ratios = {0.5, 0.3, 0.15}, .times = {2e-8, 1e-6, 3.0}},
+        1e-2}},
   };
   return samples;
 }
@@ -65,11 +71,7 @@ inline LawSample sample_of(const RegisteredLaw& law) {
   MaterialParameters p;
   p.name = law.table;
   p.elastic = sample.elastic;
-  p.law = LawParameters{law.table, {}};
-  for (const ParameterRow& row : law.parameters) {
-    const auto given = sample.values.find(std::string(row.name));
-    p.law->values.push_back(given != sample.values.end() ? given->second : std::vector{row.fallback.value()});
-  }
+  p.law = LawParameters{law.table, sample.values};
   return {law.table, law.make(p, cell), sample.strain, sample.rate};
 }
 

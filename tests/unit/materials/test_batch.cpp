@@ -13,7 +13,7 @@ namespace {
 
 /// Columns for `count` particles; those of variables the material lacks stay null.
 struct Columns {
-  using Tensors = std::array<std::vector<double>, 4>;
+  using Tensors = TensorColumns;
   Tensors elastic_strain, stress, increment;
   std::vector<std::vector<double>> variables;
   std::vector<std::string> names;
@@ -46,7 +46,7 @@ struct Columns {
   /// Stress that the material finds for the state as it stands.
   Tensors stress_of_state(const CompositeMaterial& material) const {
     Tensors found;
-    std::array<double*, 4> to{};
+    TensorPointers<double> to{};
     for (std::size_t c = 0; c < 4; ++c) found[c].resize(mass.size()), to[c] = found[c].data();
     material.door().stress(pointers.start_strain, pointers.start_variables, mass.size(), to);
     return found;

@@ -2,24 +2,27 @@
 #include <string>
 
 #include "catch.hpp"
-#include "materials/registry.hpp"
+#include "materials/johnson_cook.hpp"
+#include "materials/johnson_holmquist.hpp"
+#include "materials/maxwell.hpp"
+#include "schema/field.hpp"
 
 using namespace vitrum;
 
 namespace {
 
 template <class Parameters>
-void check_parameters() {
+void check_rows() {
   std::set<std::string> names;
-  for (const ParameterInfo<Parameters>& info : Parameters::describe()) {
-    CAPTURE(std::string(info.name));
-    CHECK_FALSE(info.name.empty());
-    CHECK_FALSE(info.unit.empty());
-    CHECK_FALSE(info.description.empty());
-    CHECK(info.member != nullptr);
-    CHECK(info.bounds.lowest < info.bounds.highest);
-    if (info.fallback) CHECK(info.bounds.contain(*info.fallback));
-    CHECK(names.insert(std::string(info.name)).second);
+  for (const schema::Field<Parameters>& row : Parameters::rows()) {
+    CAPTURE(row.name);
+    CHECK_FALSE(row.name.empty());
+    CHECK_FALSE(row.unit.empty());
+    CHECK_FALSE(row.text.empty());
+    CHECK(row.bounds.lowest < row.bounds.highest);
+    if (row.fallback) CHECK(row.bounds.contain(std::get<double>(*row.fallback)));
+    CHECK(row.required != row.fallback.has_value());
+    CHECK(names.insert(row.name).second);
   }
   CHECK_FALSE(names.empty());
 }
@@ -28,11 +31,14 @@ void check_parameters() {
 
 TEST_CASE("every parameter has a name, a unit, a description and bounds around its default",
           "[material][description]") {
-  check_parameters<ElasticParameters>();
-  check_parameters<DamageParameters>();
-  check_parameters<DruckerPragerParameters>();
-  check_parameters<VonMisesParameters>();
-  check_parameters<DecohesionParameters>();
+  check_rows<ElasticParameters>();
+  check_rows<DamageParameters>();
+  check_rows<DruckerPragerParameters>();
+  check_rows<VonMisesParameters>();
+  check_rows<DecohesionParameters>();
+  check_rows<JohnsonCookParameters>();
+  check_rows<JohnsonHolmquistParameters>();
+  check_rows<MaxwellParameters>();
 }
 
 TEST_CASE("every column is described, and named once", "[material][description]") {

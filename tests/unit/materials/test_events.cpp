@@ -29,6 +29,7 @@ TEST_CASE("the life of a glass point in one increment, in order", "[material][ev
   // Oracles: eps_1 = 1.471237e-4 R^(1/3), then u0/L_e - tau_np/M more.
   const double scale = std::cbrt(0.02 / 3.0 / 1e-5);
   CHECK(report.events[1].fraction == Approx(1.471237e-4 * scale / 0.02).epsilon(1e-6));
+  CHECK(report.events[1].stress == Approx(10.808642e6 * scale).epsilon(1e-6));
   CompositeState stretched =
       s;  // (fully open, the point has no strain: whether cracks are closed is rounding)
   stretched.elastic_strain = 1e-6 * identity();
@@ -39,8 +40,8 @@ TEST_CASE("the life of a glass point in one increment, in order", "[material][ev
 
 TEST_CASE("a report keeps all events, in order of time whatever rounding says", "[material][events]") {
   PointReport report;
-  for (std::size_t i = 0; i < 40; ++i) report.record(EventKind::yield, 0.01 * static_cast<double>(i));
-  report.record(EventKind::peak, 0.39 - 1e-16);
+  for (std::size_t i = 0; i < 40; ++i) report.record(EventKind::yield, 0.01 * static_cast<double>(i), {});
+  report.record(EventKind::peak, 0.39 - 1e-16, {});
   REQUIRE(report.events.size() == 41);
   CHECK(report.events[20].fraction == 0.2);
   CHECK(report.events.back().fraction == report.events[39].fraction);

@@ -171,7 +171,9 @@ TEST_CASE("Operators give the same bits wherever particles lie in memory", "[mpm
         System& s = run->system;
         scatter(s, Scatter::momentum_and_force, Nodes::moved, 0.01);
         gather(s, Gather::velocity_and_rescatter, 0.01);
-        gather_and_update_stress(s, Gather::strain_and_position, 0.01);
+        StressUpdate stress(s, 0.01);
+        sweep(s, {{gather_pass(s, Gather::strain_and_position, 0.01, &stress)}});
+        stress.book();
       }
       CHECK(sorted.system.record.kinetic == mixed.system.record.kinetic);
       CHECK(sorted.system.record.elastic == mixed.system.record.elastic);

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "contains_text.hpp"
-#include "materials/description.hpp"
 #include "output/atomic_file.hpp"
 #include "output/hdf5.hpp"
 #include "output/provenance.hpp"

@@ -32,8 +32,8 @@ class DescribedMaterial final : public Material {
   void tangent(const ParticleColumns&, std::size_t, std::size_t, double, TangentEntries*) const override {
     throw std::logic_error("not for output");
   }
-  void stress(const std::array<const double*, 4>& strain, const VariableColumns<const double*>&,
-              std::size_t size, const std::array<double*, 4>& stress) const override {
+  void stress(const TensorPointers<const double>& strain, const VariableColumns<const double*>&,
+              std::size_t size, const TensorPointers<double>& stress) const override {
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t k = 0; k < size; ++k) stress[c][k] = strain[c][k] - 10.0;
   }

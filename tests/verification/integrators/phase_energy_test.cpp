@@ -51,7 +51,7 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
   const std::vector<double> start(solver.y() + n, solver.y() + 2 * n);
   PhaseEnergies e{mpm::kinetic_energy(system) + stored_energy(system), 0.0, 0.0, 0.0};
   const auto velocities = [&] {
-    std::vector<std::array<std::vector<double>, 2>> v;
+    std::vector<VectorColumns> v;
     for (const Body& b : system.bodies) v.push_back(b.particles.velocity);
     return v;
   };

@@ -34,7 +34,7 @@ double error(const Wave& wave, const std::string& shape, int n, int particles_pe
            fmt::format("particles_per_cell = {}", particles_per_cell));
   MpmRun run(scene);
   Particles& p = run.particles();
-  const std::array<std::vector<double>, 2> start = p.position;
+  const VectorColumns start = p.position;
   const auto mode = [&](std::size_t i, std::size_t c) {
     const double x = k * start[0][i], y = k * start[1][i];
     return c == 0 ? std::sin(x) * std::cos(y) : wave.sign * std::cos(x) * std::sin(y);

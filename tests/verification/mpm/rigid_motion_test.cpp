@@ -70,7 +70,7 @@ TurnError quarter_turn(MpmScene scene, double radius) {
            fmt::format("particles_per_cell = 4\nvelocity_gradient = [[0.0, {}], [{}, 0.0]]", -rate, rate));
   MpmRun run(scene);
   const Particles& p = run.particles();
-  const std::array<std::vector<double>, 2> start = p.position;
+  const VectorColumns start = p.position;
   const double initial = angular_momentum(p);
   run.advance(0.5 * std::numbers::pi / rate);
   TurnError e{0.0, angular_momentum(p) / initial - 1.0, run.energy().kinetic / run.energy().initial - 1.0};
