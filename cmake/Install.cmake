@@ -33,6 +33,10 @@ install(FILES README.md CITATION.cff LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY studies DESTINATION "${CMAKE_INSTALL_DATADIR}/vitrum" USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
+# `import vitrum`: a Debian package has it where Python looks; other prefixes name the folder in PYTHONPATH. One copy: a link to that of the studies.
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/python")
+file(CREATE_LINK "../../../${CMAKE_INSTALL_DATADIR}/vitrum/studies/vitrum" "${PROJECT_BINARY_DIR}/python/vitrum" SYMBOLIC)
+install(FILES "${PROJECT_BINARY_DIR}/python/vitrum" DESTINATION lib/python3/dist-packages)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The vitrum developers")

@@ -31,7 +31,7 @@ def parse(arguments):
 
 def save(figure, folder, name, stamp):
     import matplotlib.pyplot as plt
-    from plotting.looks import dots_per_inch
+    from vitrum.plot.looks import dots_per_inch
     for suffix in ("png", "pdf"):
         path = folder / f"{name}.{suffix}"
         figure.savefig(path, dpi=dots_per_inch, metadata=stamp if suffix == "png" else {"Creator": stamp["Source"]})
@@ -39,60 +39,46 @@ def save(figure, folder, name, stamp):
     plt.close(figure)
 
 
-def pictures(run, frames):
-    """(name, function that draws it, why it may be missing)."""
-    from plotting import crack_figures, particle_figures
-    from plotting.energy_figure import energy_history
-    from plotting.history_figure import failure_history
-    of_particles = [("snapshots", particle_figures.snapshots, ""), ("damage", particle_figures.damage, "no material of the scene is damaged"),
-                    ("opening", particle_figures.opening, "nothing has opened at these times"),
-                    ("cracks", crack_figures.cracks, "the outputs hold no planes (effective_length, normal_r, normal_z)"),
-                    ("fragments", crack_figures.fragments, "the outputs do not tell what has separated (decohesion)"),
-                    ("fragment-masses", crack_figures.fragment_masses, "the outputs do not tell what has separated (decohesion)")]
-    for name, draw_it, reason in of_particles:
-        if run.frames:
-            yield name, lambda draw_it=draw_it: draw_it(run, frames), reason
-        else:
-            yield name, lambda: None, "the run was made with --no-fields"
-    yield "failure", lambda: failure_history(run), "nothing of the scene can fail"
-    yield "energy", lambda: energy_history(run), ""
-
-
 def draw(options):
     import matplotlib
     matplotlib.use("Agg")
-    from plotting import stamp
-    from plotting.run_results import BadInput, RunResults
+    import vitrum
+    from vitrum import plot
+    from vitrum.plot import stamp
 
-    run = RunResults(options.directory)
-    frames = run.frames_at(options.times)
+    run = vitrum.load(options.directory)
+    run.frames_at(options.times)
     folder = pathlib.Path(options.out) if options.out else run.directory / "pictures"
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: cannot be made: {error.strerror}") from error
-    for name, draw_it, reason in pictures(run, frames):
-        figure = draw_it()
+        raise vitrum.InputError(f"{folder}: cannot be made: {error.strerror}") from error
+    for figure_of, missing in plot.of_particles.items():
+        name = figure_of.__name__.replace("_", "-")
+        figure = figure_of(run, options.times)
         if figure is None:
-            print(f"{name}: not drawn: {reason}")
+            print(f"{name}: not drawn: {missing if run.frames else 'the run was made with --no-fields'}")
         else:
             save(figure, folder, name, stamp.of_run(run))
+    for figure_of, missing in plot.over_time.items():
+        figure = figure_of(run)
+        if figure is None:
+            print(f"{figure_of.__name__}: not drawn: {missing}")
+        else:
+            save(figure, folder, figure_of.__name__, stamp.of_run(run))
 
 
 def main(arguments):
     options = parse(arguments)
     try:
-        from plotting.run_results import BadInput
+        import vitrum
+        try:
+            draw(options)
+        except vitrum.Error as error:
+            print(f"error: {error}", file=sys.stderr)
+            return 2
     except ModuleNotFoundError as error:
-        print(f"error: Python module '{error.name}' is missing: install python3-h5py and python3-matplotlib", file=sys.stderr)
-        return 2
-    try:
-        draw(options)
-    except BadInput as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    except ModuleNotFoundError as error:
-        print(f"error: Python module '{error.name}' is missing: install python3-matplotlib", file=sys.stderr)
+        print(f"error: Python module '{error.name}' is missing: install python3-numpy, python3-h5py and python3-matplotlib", file=sys.stderr)
         return 2
     return 0
 

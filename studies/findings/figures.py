@@ -1,19 +1,19 @@
 """Pictures of the findings."""
 import matplotlib
 import numpy as np
-from plotting import stamp
-from plotting.crack_figures import cracks, fragment_masses, fragments
-from plotting.energy_figure import energy_history
-from plotting.looks import page_width
-from plotting.panels import Panel
-from plotting.particle_figures import damage, side_by_side, snapshots
+from vitrum.plot import stamp
+from vitrum.plot.crack_figures import cracks, fragment_masses, fragments
+from vitrum.plot.energy_figure import energy_history
+from vitrum.plot.looks import page_width
+from vitrum.plot.panels import Panel
+from vitrum.plot.particle_figures import damage, side_by_side, snapshots
 from study.figures import colours, plt, save
 
 reference_times = (-15e-6, 20e-6, 50e-6, 150e-6)  # s
 
 
 def of_runs(runs, folder):
-    """`runs`: name -> RunResults of the cases that have pictures."""
+    """`runs`: name -> runs of the cases that have pictures."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):
         reference = runs["reference"]
         frames, last = reference.frames_at(reference_times), reference.frames_at(reference_times[1:])

@@ -2,9 +2,9 @@
 import matplotlib
 import numpy as np
 from matplotlib.lines import Line2D
-from plotting import stamp
-from plotting.crack_figures import cracks, fragment_masses, fragments
-from plotting.particle_figures import damage, opening, snapshots
+from vitrum.plot import stamp
+from vitrum.plot.crack_figures import cracks, fragment_masses, fragments
+from vitrum.plot.particle_figures import damage, opening, snapshots
 from study.figures import colours, legend_below, plt, save
 
 from paper.sentences import plate_wave
@@ -101,7 +101,7 @@ def energies(histories, title, folder, name):
     """Energy made or lost by the numerics over time."""
     figure, axes = plt.subplots(figsize=(5.6, 3.4))
     for n, (label, history) in enumerate(histories.items()):
-        account = history.outcome.results.energy
+        account = history.outcome.results.columns("energy")
         start = account["kinetic"][0] + account["elastic"][0]
         error = np.abs(account["residual"]) / start
         axes.semilogy(1e6 * account["time"], np.where(error > 1e-6, error, np.nan), color=colours[n], linestyle=["-", "--", "-."][n % 3], label=label)

@@ -113,6 +113,6 @@ class History:
 
     def made_energy(self, time):
         """Energy that the numerics have made by the output at `time` (or the run's end), over the initial one."""
-        account = self.outcome.results.energy
+        account = self.outcome.results.columns("energy")
         n = int(np.searchsorted(account["time"], time + 1e-9, side="right")) - 1
         return float(-account["residual"][n] / (account["kinetic"][0] + account["elastic"][0]))

@@ -1,32 +1,12 @@
 """A case: one scene, changed by --set. The only place that knows the program's command line."""
 import functools
 import hashlib
-import json
-import math
-import os
-import pathlib
 import subprocess
 from dataclasses import dataclass, field
 
-studies = pathlib.Path(__file__).resolve().parent.parent
+from vitrum.program import overrides, program, studies
+
 root = studies.parent
-
-
-def toml(value):
-    """The value as TOML."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        return json.dumps(value)
-    if isinstance(value, float):
-        return repr(value) if math.isfinite(value) else str(value)
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key} = {toml(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(toml(item) for item in value) + "]"
-    raise TypeError(f"no TOML value: {value!r}")
 
 
 @dataclass(frozen=True)
@@ -39,12 +19,7 @@ class Case:
     longest: float = 600.0  # s: a run that takes longer is stopped, and counts as such
 
     def overrides(self):
-        return [text for key, value in self.settings.items() for text in ("--set", f"{key}={toml(value)}")]
-
-
-def program():
-    """The program under study: $VITRUM, else the release build."""
-    return pathlib.Path(os.environ.get("VITRUM", root / "build/release/src/app/vitrum")).resolve()
+        return overrides(self.settings)
 
 
 def run_command(case, folder):

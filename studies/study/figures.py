@@ -5,8 +5,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
-from plotting import stamp  # noqa: E402
-from plotting.looks import dots_per_inch, page_width  # noqa: E402,F401
+from vitrum.plot import stamp  # noqa: E402
+from vitrum.plot.looks import dots_per_inch, page_width  # noqa: E402,F401
 
 from study.provenance import made_by  # noqa: E402
 

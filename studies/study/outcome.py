@@ -5,6 +5,8 @@ import subprocess
 import time
 from functools import cached_property
 
+from vitrum.results import load
+
 from study.case import digest, program, run_command, studies
 
 # Exit statuses: done, and computation failed (instability, tolerance not reachable), which is a result too.
@@ -36,21 +38,15 @@ class Outcome:
 
     @cached_property
     def results(self):
-        """Particles and energies over time."""
-        from plotting.run_results import RunResults
-        return RunResults(self.folder)
+        """Particles and tables over time."""
+        return load(self.folder)
 
     def last(self, name):
         """A particle field of the last output."""
-        import h5py
-        with h5py.File(self.folder / "result.h5") as result:
-            steps = result["steps"]
-            return steps[max(steps)]["particles"][name][()]
+        return self.results.frames[-1][name]
 
     def series(self, name):
-        import h5py
-        with h5py.File(self.folder / "result.h5") as result:
-            return result["series"][name][()]
+        return self.results.columns("series")[name]
 
 
 def _up_to_date(folder, stamp):

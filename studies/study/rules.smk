@@ -6,7 +6,8 @@ import sys
 
 STUDIES = pathlib.Path(workflow.basedir).parent
 sys.path.insert(0, str(STUDIES))
-os.environ.setdefault("VITRUM", str(STUDIES.parent / "build/release/src/app/vitrum"))
+from vitrum.program import program
+os.environ["VITRUM"] = str(program())
 QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
 # Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
 MODULE = f"PYTHONPATH={STUDIES} PYTHONDONTWRITEBYTECODE=1 VITRUM={os.environ['VITRUM']} /usr/bin/python3 -m {STUDY}.study"
@@ -15,7 +16,7 @@ JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
 localrules: all, check
 
 # Whatever may change results; runs that a change leaves as they are, are found again by their command (study/outcome.py).
-SOURCES = [str(path) for folder in (STUDY, "study", "plotting") for path in sorted((STUDIES / folder).glob("*.py"))] + \
+SOURCES = [str(path) for folder in (STUDY, "study", "vitrum", "vitrum/plot") for path in sorted((STUDIES / folder).glob("*.py"))] + \
     [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
 
 rule check:

@@ -83,14 +83,14 @@ class PlotRun(CommandLineTest):
         matplotlib.use("Agg")
         from matplotlib import pyplot
         self.addCleanup(pyplot.close, "all")
-        from plotting import crack_figures, particle_figures
+        from vitrum.plot import crack_figures, particle_figures
         return {draw.__name__: draw(run, frames) for draw in (particle_figures.snapshots, particle_figures.damage, particle_figures.opening,
                                                               crack_figures.cracks, crack_figures.fragments)}
 
     def test_nothing_is_cut_off(self):
         """Titles, legends and scales lie within the figure, however few panels it has."""
-        from plotting.run_results import RunResults
-        run = RunResults(self.run_scene("out", *overrides(title='"A title that is longer than a single panel of the narrowest figure is wide, and then some"')))
+        from vitrum import load
+        run = load(self.run_scene("out", *overrides(title='"A title that is longer than a single panel of the narrowest figure is wide, and then some"')))
         for count in (1, 2, 3):
             for name, figure in self.figures(run, run.frames[-count:]).items():
                 figure.draw_without_rendering()
@@ -105,9 +105,9 @@ class PlotRun(CommandLineTest):
 
     def test_same_scales(self):
         """Damage and opening have one scale in all figures, and the worse the darker."""
-        from plotting import looks
-        from plotting.run_results import RunResults
-        weak, strong = (RunResults(self.run_scene(name, *overrides(material__glass__damage__toughness=value))) for name, value in (("weak", 0.7e6), ("strong", 0.9e6)))
+        from vitrum.plot import looks
+        from vitrum import load
+        weak, strong = (load(self.run_scene(name, *overrides(material__glass__damage__toughness=value))) for name, value in (("weak", 0.7e6), ("strong", 0.9e6)))
         for kind in ("damage", "opening"):
             ticks = [[label.get_text() for label in self.figures(run, run.frames[-2:])[kind].axes[-1].get_yticklabels()] for run in (weak, strong)]
             self.assertEqual(ticks[0], ticks[1])
@@ -120,7 +120,7 @@ class PlotRun(CommandLineTest):
         """By all kinds of colour vision (matrices of Machado, Oliveira and Fernandes, 2009, severity 1)."""
         import numpy as np
         from matplotlib.colors import to_rgb
-        from plotting import looks
+        from vitrum.plot import looks
         kinds = {"all": np.eye(3),
                  "without red": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]),
                  "without green": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]),
@@ -132,10 +132,10 @@ class PlotRun(CommandLineTest):
                     self.assertGreater(np.linalg.norm(one - other), 0.15, (kind, one, other))
 
     def test_pieces_are_those_of_the_summary(self):
-        from plotting.pieces import piece_masses
-        from plotting.run_results import RunResults
+        from vitrum.plot.pieces import piece_masses
+        from vitrum import load
         out = self.run_scene("out")
-        run = RunResults(out)
+        run = load(out)
         counted = read_summary(out)["failure"]["fragments"]
         masses = sorted((mass for each in piece_masses(run, run.frames[-1]).values() for mass in each), reverse=True)
         self.assertEqual(len(masses), counted["count"])

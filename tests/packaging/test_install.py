@@ -40,6 +40,15 @@ class Install(PackagingTest):
                 self.assertIn(option, page)
             self.assertNotIn(str(build), page)
 
+    def test_python_package_runs_the_program_beside_it(self):
+        moved = self.folder / "moved"
+        self.prefix.rename(moved)
+        code = "import vitrum, vitrum.program; print(vitrum.program.program()); print(vitrum.run(%r, {'time.end': 1e-7}).bodies)"
+        environment = {**os.environ, "PYTHONPATH": str(moved / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"}
+        environment.pop("VITRUM", None)
+        said = self.command("/usr/bin/python3", "-c", code % str(source / "tests/cli/scenes/impact.toml"), env=environment)
+        self.assertEqual(said.splitlines(), [str(moved / "bin/vitrum"), "['plate', 'cylinder']"])
+
     def test_pictures_of_a_run_are_drawn_by_what_is_installed(self):
         run = self.folder / "run"
         self.command(self.prefix / "bin/vitrum", "run", source / "tests/cli/scenes/impact.toml", "--out", run)

@@ -6,8 +6,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-from plotting import views
-from plotting.looks import page_width
+from vitrum.plot import views
+from vitrum.plot.looks import page_width
 
 # Inches. Panels are placed by hand so that both scales of every axis are exactly what the labels say.
 left_margin, right_margin, column_gap = 0.55, 0.12, 0.34

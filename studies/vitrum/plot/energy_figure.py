@@ -2,7 +2,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plotting.looks import page_width
+from vitrum.plot.looks import page_width
 
 # Okabe and Ito's colours, in an order that keeps neighbours of the stack apart.
 shares = {"kinetic": "#0072B2", "elastic": "#56B4E9", "plastic": "#E69F00", "damage": "#009E73", "fracture": "#D55E00"}
@@ -44,7 +44,7 @@ def _lines(axes, time, account, scale):
 
 def energy_history(run):
     """Above the shares stacked, below each on a logarithmic scale."""
-    account = run.energy
+    account = run.columns("energy")
     time = 1e6 * account["time"]
     put_in = account["kinetic"][0] + account["elastic"][0] + account["external"]
     scale = max(np.max(np.abs(put_in)), np.max(account["kinetic"]))

@@ -3,8 +3,8 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 
-from plotting import looks
-from plotting.panels import Layout, Painting, at_times, colour_bar, draw_panels
+from vitrum.plot import looks
+from vitrum.plot.panels import Layout, Painting, at_times, colour_bar, draw_panels
 
 
 def _everything(run):

@@ -5,9 +5,9 @@ from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from plotting import looks, views
-from plotting.panels import Layout, Painting, at_times, draw_panels
-from plotting.pieces import piece_masses, pieces
+from vitrum.plot import looks, views
+from vitrum.plot.panels import Layout, Painting, at_times, draw_panels
+from vitrum.plot.pieces import piece_masses, pieces
 
 opening_crack, open_crack, hoop_crack = "#0072B2", "#D55E00", "#1A1A1A"
 dust = "#6E6E6E"

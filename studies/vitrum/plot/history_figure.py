@@ -1,13 +1,13 @@
 """Failure over time, from the series that every run has."""
 import matplotlib.pyplot as plt
 
-from plotting.looks import page_width
+from vitrum.plot.looks import page_width
 
 
 
 def failure_history(run):
     """Particles that have localised and separated, and how far out; what the outputs stored, which `--no-fields` does not touch. None: nothing can."""
-    series = run.series
+    series = run.columns("series")
     if not any(material.get("decohesion") for material in run.scene["material"].values()):
         return None
     time = 1e6 * series["time"]
