@@ -50,6 +50,14 @@ class Frame:
             return np.zeros(len(self.position), bool)
         return np.nan_to_num(decohesion) >= 1.0
 
+    def piece(self) -> np.ndarray | None:
+        """Number of the connected piece of each particle (N): -1 for one that has separated; NaN where the material cannot. None: not stored."""
+        with self._run.open() as result:
+            drawn = result["steps"][self._key].get("drawn")
+            if drawn is None or any("fragment" not in drawn[str(body)] for body in range(len(self._run.bodies))):
+                return None
+            return np.concatenate([drawn[str(body)]["fragment"][()] for body in range(len(self._run.bodies))])
+
     def opening(self) -> np.ndarray | None:
         """Length of the opening vector (m), eq. 14; None: no decohesion."""
         normal, tangential = self.field("opening_n"), self.field("opening_t")

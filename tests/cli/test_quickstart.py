@@ -54,7 +54,8 @@ class Quickstart(unittest.TestCase):
         built.rename(self.home / "to be built")
         self.tool("cmake", f'[ -e "{built}" ] || /bin/cp -r "{self.home}/to be built" "{built}"\n')
         (self.home / "studies").mkdir()
-        (self.home / "studies/plot_run.py").write_text("")
+        for script in ("plot_run.py", "vitrum-report"):
+            (self.home / "studies" / script).write_text("")
         _, calls = self.run_it()
         self.assertIn("cmake --preset release -DVITRUM_TESTS=OFF", calls)
         self.assertIn("cmake --build --preset release --target vitrum", calls)

@@ -49,6 +49,12 @@ class Install(PackagingTest):
         said = self.command("/usr/bin/python3", "-c", code % str(source / "tests/cli/scenes/impact.toml"), env=environment)
         self.assertEqual(said.splitlines(), [str(moved / "bin/vitrum"), "['plate', 'cylinder']"])
 
+    def test_report_of_a_run_is_written_by_what_is_installed(self):
+        run = self.folder / "run"
+        self.command(self.prefix / "bin/vitrum", "run", source / "tests/cli/scenes/impact.toml", "--out", run)
+        self.command(self.prefix / "bin/vitrum-report", run, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+        self.assertIn("The run is complete", (run / "report.html").read_text())
+
     def test_pictures_of_a_run_are_drawn_by_what_is_installed(self):
         run = self.folder / "run"
         self.command(self.prefix / "bin/vitrum", "run", source / "tests/cli/scenes/impact.toml", "--out", run)

@@ -13,7 +13,7 @@ if "VITRUM" not in os.environ:
 os.environ["VITRUM"] = os.path.abspath(os.environ["VITRUM"])
 
 impact = source / "tests/cli/scenes/impact.toml"
-plane_strain = source / "tests/cli/scenes/plane_strain.toml"
+blocks = source / "studies/trade/impact.toml"  # elastic
 
 
 class PackageTest(unittest.TestCase):

@@ -10,13 +10,13 @@ between_bodies = {"contact": "#F0E442", "friction": "#CC79A7"}  # shown where th
 beside = {"fontsize": 8, "loc": "center left", "bbox_to_anchor": (1.0, 0.5), "frameon": False}
 
 
-def _shares_of(account):
+def shares_of(account):
     return shares | {name: colour for name, colour in between_bodies.items() if np.any(account.get(name, 0.0))}
 
 
 def _stack(axes, time, account, put_in):
     """Where the energy is: shares on top of each other, and what is missing of, or beyond, what was put in."""
-    present = _shares_of(account)
+    present = shares_of(account)
     axes.stackplot(time, [account[name] for name in present], colors=present.values(), labels=present.keys(), linewidth=0)
     total = sum(account[name] for name in present)
     axes.fill_between(time, total, put_in, facecolor="none", edgecolor="black", hatch="//////", linewidth=0.0, label="residual")
@@ -33,7 +33,7 @@ def _lines(axes, time, account, scale):
     def line(values, **style):
         axes.semilogy(time, np.where(values > floor, values, np.nan), **style)
 
-    for name, colour in _shares_of(account).items():
+    for name, colour in shares_of(account).items():
         line(account[name], color=colour, linewidth=1.6)
     line(account["residual"], color="black", linewidth=1.0, label="residual: lost")
     line(-account["residual"], color="black", linewidth=1.0, linestyle=":", label="residual: created")
