@@ -218,8 +218,14 @@ class Batch final : public Material {
   double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   void store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
-  double take_inelastic(const ParticleColumns& p, std::size_t i, State& s, double duration,
-                        PointIntegrator* integrator, PointReport& point, BatchReport& report) const;
+  /// What increments of one point need, made once for many.
+  struct Room {
+    State state;
+    PointState point;
+    PointReport report;
+  };
+  double take_inelastic(const ParticleColumns& p, std::size_t i, Room& room, double duration,
+                        PointIntegrator* integrator, BatchReport& report) const;
 
   Law law_;
   double wave_speed_;

@@ -64,15 +64,14 @@ double Batch<Law>::take_elastic(const ParticleColumns& p, std::size_t begin, std
 
 /// An increment that is more than elastic. Returns the energy stored at its end, J.
 template <class Law>
-double Batch<Law>::take_inelastic(const ParticleColumns& p, std::size_t i, State& s, double duration,
-                                  PointIntegrator* integrator, PointReport& point,
-                                  BatchReport& report) const {
+double Batch<Law>::take_inelastic(const ParticleColumns& p, std::size_t i, Room& room, double duration,
+                                  PointIntegrator* integrator, BatchReport& report) const {
+  auto& [s, state, point] = room;
   const SymmetricTensor strain = tensor_at(p.strain_increment, i);
   point.clear();
   if (integrator == nullptr) {
     advance(s, strain, duration, point);
   } else {
-    PointState state;
     store(s, state);
     integrator->integrate(*this, state, strain, duration, point);
     report.solver += point.solver;
@@ -105,8 +104,7 @@ void Batch<Law>::advance(const ParticleColumns& p, std::size_t begin, std::size_
     return;
   }
   double stored = 0.0;
-  State s;
-  PointReport point;
+  Room room;
   if constexpr (runs) {
     // Runs of elastic increments between the others.
     std::size_t elastic_from = begin;
@@ -116,9 +114,9 @@ void Batch<Law>::advance(const ParticleColumns& p, std::size_t begin, std::size_
       if (!law_.mark_inelastic(p, first, last, duration, inelastic)) continue;
       for (std::size_t i = first; i < last; ++i) {
         if (inelastic[i - first] == 0.0) continue;
-        load(p, i, s);
+        load(p, i, room.state);
         stored += take_elastic(p, elastic_from, i);
-        stored += take_inelastic(p, i, s, duration, integrator, point, report);
+        stored += take_inelastic(p, i, room, duration, integrator, report);
         if (report.failed) return;  // the step fails, whatever comes after
         elastic_from = i + 1;
       }
@@ -126,8 +124,8 @@ void Batch<Law>::advance(const ParticleColumns& p, std::size_t begin, std::size_
     stored += take_elastic(p, elastic_from, end);
   } else {
     for (std::size_t i = begin; i < end; ++i) {
-      load(p, i, s);
-      stored += take_inelastic(p, i, s, duration, integrator, point, report);
+      load(p, i, room.state);
+      stored += take_inelastic(p, i, room, duration, integrator, report);
       if (report.failed) return;
     }
   }

@@ -28,8 +28,9 @@ inline constexpr Guard path_end = -1;
 /// The guards of a mode, scaled to O(1): below zero inside the mode, crossing zero upwards where it ends.
 struct Guards {
   static constexpr std::size_t capacity = 13;
-  std::array<Guard, capacity> guard{};
-  std::array<double, capacity> value{};
+  Guards() {}  // entries beyond count are not set
+  std::array<Guard, capacity> guard;
+  std::array<double, capacity> value;
   std::size_t count = 0;
 
   /// name: a number, or an enumeration of the law.

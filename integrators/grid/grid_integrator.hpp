@@ -10,7 +10,7 @@ namespace vitrum {
 /// How much work the integration of the momentum equations took so far.
 struct IntegratorCounters {
   std::int64_t steps = 0, rejected = 0, rhs_evaluations = 0, newton_iterations = 0, factorisations = 0;
-  std::int64_t factor_entries = 0;  ///< most numbers in the sparse factors of a phase
+  std::int64_t factor_entries = 0;        ///< most numbers in the sparse factors of a phase
   double step_min = 0.0, step_max = 0.0;  ///< s; 0 before the first step
   std::int64_t limited_by_stability = 0, limited_by_accuracy = 0, limited_by_output = 0, limited_by_remap = 0;
   StepLimit last_limit = StepLimit::fixed;  ///< of the last step

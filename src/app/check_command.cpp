@@ -17,7 +17,7 @@
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/choices.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/shape_measures.hpp"
@@ -100,7 +100,7 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
         "#   while increments are elastic; about {} if none were (measured now with constitutive.method = "
         "\"{}\")\n",
         duration_text(facts["seconds_most"].get<double>()),
-        scene::name_of(scene::local_methods, scene.constitutive.method));
+        name_of(scene.constitutive.method));
   for (const Body& body : system.bodies)
     if (scene.constitutive.method != LocalMethod::closed_form && body.material->event_driven() == nullptr)
       text += fmt::format(

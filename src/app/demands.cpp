@@ -9,7 +9,7 @@
 #include "app/local_cost.hpp"
 #include "app/machine.hpp"
 #include "output/particle_fields.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/input_error.hpp"
 
 namespace vitrum::app {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "scene/local_method.hpp"
+#include "integrators/local/local_method.hpp"
 
 namespace vitrum::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "mpm/computation_error.hpp"
-#include "scene/local_method.hpp"
+#include "integrators/local/local_method.hpp"
 
 namespace vitrum::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
 #include "output/sha256.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/input_error.hpp"
 #include "scene/write_scene.hpp"
 

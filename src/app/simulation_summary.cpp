@@ -110,8 +110,8 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.wall_seconds = state_.wall_seconds;
   s.total_seconds = total_seconds();
   s.threads = system_.team->size();
-  s.integrator_method = scene::name_of(scene::grid_methods, scene_.integrator.method);
-  s.constitutive_method = scene::name_of(scene::local_methods, scene_.constitutive.method);
+  s.integrator_method = name_of(scene_.integrator.method);
+  s.constitutive_method = name_of(scene_.constitutive.method);
   const IntegratorState& integration = integrator_->state();
   s.integrator = integration.counters;
   if (integrator_->estimates_errors()) s.error = integration.error;

@@ -11,7 +11,7 @@
 #include "app/plausibility.hpp"
 #include "observe/probes.hpp"
 #include "scene/boundary_checks.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_text.hpp"
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <system_error>
 
+#include "integrators/local/local_method.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/point.hpp"
 #include "mpm/transfer.hpp"
 #include "scene/build_contact.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
-#include "scene/local_method.hpp"
 #include "scene/number_range.hpp"
 #include "scene/perturbation.hpp"
 #include "scene/seeding.hpp"

@@ -71,7 +71,8 @@ void check_law(const TableView& table, const MaterialParameters& material) {
   for (const std::string_view key : {std::string_view(law.table), std::string_view("density"),
                                      std::string_view("young"), std::string_view("poisson")})
     if (!table.sound(key)) return;
-  if (const auto fault = law.contradiction(material)) table.table(law.table)->fail(fault->key, fault->expected);
+  if (const auto fault = law.contradiction(material))
+    table.table(law.table)->fail(fault->key, fault->expected);
 }
 
 void check_material(const TableView& table, const MaterialParameters& material) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "integrators/grid/grid_method.hpp"
 #include "scene/checks.hpp"
-#include "scene/grid_method.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 

@@ -15,22 +15,8 @@ inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::line
                                             Named{"bspline2", mpm::ShapeKind::bspline2}};
 inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
                                       Named{"centroids", Gradients::centroids}};
-inline constexpr std::array grid_methods{Named{"explicit", GridMethod::explicit_steps},
-                                         Named{"arkode-explicit", GridMethod::arkode_explicit},
-                                         Named{"arkode-implicit", GridMethod::arkode_implicit}};
-inline constexpr std::array step_schemes{Named{"usf", StepScheme::usf}, Named{"usl", StepScheme::usl},
-                                         Named{"musl", StepScheme::musl}};
-inline constexpr std::array linear_solvers{Named{"klu", LinearSolver::klu},
-                                           Named{"gmres", LinearSolver::gmres}};
-inline constexpr std::array preconditioners{Named{"factor", Preconditioner::factor},
-                                            Named{"diagonal", Preconditioner::diagonal}};
 inline constexpr std::array contact_methods{Named{"single", ContactMethod::single},
                                             Named{"bodies", ContactMethod::bodies}};
-inline constexpr std::array local_methods{Named{"closed-form", LocalMethod::closed_form},
-                                          Named{"substep", LocalMethod::substep},
-                                          Named{"cvode", LocalMethod::cvode}};
-inline constexpr std::array cvode_families{Named{"bdf", CvodeFamily::bdf},
-                                           Named{"adams", CvodeFamily::adams}};
 /// Whether the flow is associated.
 inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
 /// Whether the search for a decohesion plane goes beyond the plane of the scene.

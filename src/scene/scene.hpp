@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "integrators/grid/step_scheme.hpp"
-#include "integrators/local/cvode_family.hpp"
+#include "integrators/grid/definition.hpp"
+#include "integrators/local/definition.hpp"
 #include "materials/law.hpp"
 #include "mpm/shape_kind.hpp"
 #include "schema/value.hpp"
@@ -20,11 +20,7 @@ using Vector2 = std::array<double, 2>;
 
 enum class Geometry { axisymmetric, plane_strain };
 enum class Gradients { nodes, centroids };
-enum class GridMethod { explicit_steps, arkode_explicit, arkode_implicit };
 enum class ContactMethod { single, bodies };
-enum class LinearSolver { klu, gmres };
-enum class Preconditioner { factor, diagonal };
-enum class LocalMethod { closed_form, substep, cvode };
 
 struct Box {
   Vector2 min, max;
@@ -80,33 +76,6 @@ struct ProbeDefinition {
 
   /// Of a point or a line.
   std::vector<Vector2> points() const;
-};
-
-struct IntegratorDefinition {
-  GridMethod method = GridMethod::explicit_steps;
-  StepScheme scheme = StepScheme::usf;
-  std::optional<double> step;  ///< s; exactly one of step and courant is set
-  std::optional<double> courant;
-  double max_growth = 1.5;  ///< may be infinite
-  // arkode-*
-  std::optional<int> order;  ///< exactly one of order and table is set
-  std::optional<std::string> table;
-  double rtol = 1.0e-3;
-  std::optional<double> velocity_scale, strain_scale;  ///< m/s, 1; absent: derived from the scene
-  std::optional<double> fixed_step, max_step, min_step, initial_step;
-  // arkode-implicit
-  LinearSolver linear_solver = LinearSolver::klu;
-  Preconditioner preconditioner = Preconditioner::factor;
-  std::optional<double> remap;  ///< s; none: phases end by travel and strain alone
-  double remap_travel = 0.25;   ///< cells
-  double remap_strain = 0.02;
-};
-
-struct ConstitutiveDefinition {
-  LocalMethod method = LocalMethod::closed_form;
-  double rtol = 1.0e-6;
-  double atol = 1.0e-9;
-  CvodeFamily solver = CvodeFamily::bdf;
 };
 
 struct OutputDefinition {

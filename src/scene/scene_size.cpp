@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/grid/grid_method.hpp"
 #include "mpm/grid.hpp"
-#include "scene/grid_method.hpp"
 #include "scene/shape_measures.hpp"
 
 namespace vitrum {

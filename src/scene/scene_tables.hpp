@@ -16,8 +16,6 @@ const schema::Table& point_table();
 // Parts of them, in files by subject.
 const schema::Table& space_table();
 const schema::Table& time_table();
-const schema::Table& integrator_table();
-const schema::Table& constitutive_table();
 const schema::Table& output_table();
 const schema::Table& gravity_table();
 const schema::Table& body_table();

@@ -5,7 +5,7 @@
 #include "observe/energy_ledger.hpp"
 #include "observe/failure.hpp"
 #include "scene/build_system.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "vitrum_source_dir.hpp"
 

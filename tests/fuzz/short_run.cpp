@@ -12,7 +12,7 @@
 #include "output/particle_fields.hpp"
 #include "promises.hpp"
 #include "scene/build_system.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/seeding.hpp"
 #include "scene/write_scene.hpp"

@@ -20,6 +20,7 @@ struct LawSample {
   std::shared_ptr<const Material> material;
   double strain = 1e-3;  ///< size of strains at which the law does what it is for
   double rate = 1e4;     ///< 1/s
+  bool turns = true;     ///< whether all directions of the grid are one: not of a plane, whose L_e they give
 };
 
 /// Parameters of a registered law.
@@ -75,13 +76,14 @@ inline LawSample sample_of(const RegisteredLaw& law) {
   return {law.table, law.make(p, cell), sample.strain, sample.rate};
 }
 
-/// The minimal law, every registered law, and the composite without planes, whose effective length depends on
-/// how they lie in the grid.
+/// The minimal law, every registered law, and every composition of the composite.
 inline std::vector<LawSample> law_samples() {
   std::vector<LawSample> all{{"minimal", minimal_material(), 4e-3}};
   for (const RegisteredLaw& law : registered_laws()) all.push_back(sample_of(law));
   for (const NamedMaterial& named : all_compositions())
-    if (!named.parameters.decohesion) all.push_back({named.name, make_material(named.parameters, cell)});
+    all.push_back({.name = named.name,
+                   .material = make_material(named.parameters, cell),
+                   .turns = !named.parameters.decohesion});
   return all;
 }
 

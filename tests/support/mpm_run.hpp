@@ -6,7 +6,7 @@
 #include "mpm/computation_error.hpp"
 #include "observe/energy_ledger.hpp"
 #include "scene/build_system.hpp"
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "support/mpm_scene.hpp"
 #include "support/reorder.hpp"

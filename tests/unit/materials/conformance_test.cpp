@@ -157,6 +157,7 @@ TEST_CASE("a law starts within its bounds, at the stress that it is given", "[ma
 
 TEST_CASE("a law is objective: what it stores turns with the particle", "[material][conformance]") {
   for (const LawSample& law : law_samples()) {
+    if (!law.turns) continue;
     CAPTURE(law.name);
     Random random(211);
     Particle still(*law.material), turning(*law.material);

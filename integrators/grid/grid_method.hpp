@@ -3,9 +3,9 @@
 
 #include "integrators/grid/arkode_implicit.hpp"
 #include "integrators/grid/critical_step.hpp"
+#include "integrators/grid/definition.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/butcher_table.hpp"
-#include "scene/scene.hpp"
 
 namespace vitrum {
 

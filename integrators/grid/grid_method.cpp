@@ -1,10 +1,10 @@
-#include "scene/grid_method.hpp"
+#include "integrators/grid/grid_method.hpp"
 
 #include <limits>
+#include <stdexcept>
 
 #include "integrators/grid/arkode_explicit.hpp"
 #include "integrators/grid/explicit.hpp"
-#include "scene/input_error.hpp"
 
 namespace vitrum {
 namespace {
@@ -33,7 +33,7 @@ sundials::ButcherTable butcher_table(const IntegratorDefinition& integrator) {
   const std::string name =
       integrator.table ? *integrator.table : sundials::table_of_order(kind, integrator.order.value());
   const auto table = sundials::find_table(kind, name);
-  if (!table) throw InputError("integrator.table: SUNDIALS has no table " + name);  // validated before
+  if (!table) throw std::invalid_argument("integrator.table: SUNDIALS has no table " + name);
   return *table;
 }
 

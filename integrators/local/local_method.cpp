@@ -1,4 +1,4 @@
-#include "scene/local_method.hpp"
+#include "integrators/local/local_method.hpp"
 
 #include "integrators/local/closed_form.hpp"
 #include "integrators/local/cvode.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 #include <memory>
 
+#include "integrators/local/definition.hpp"
 #include "integrators/local/local_integrator.hpp"
-#include "scene/scene.hpp"
 
 namespace vitrum {
 
