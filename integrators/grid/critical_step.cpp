@@ -12,14 +12,17 @@ double stability_limit(StepScheme scheme) {
   return scheme == StepScheme::usl ? 0.5 : 1.0 / std::numbers::sqrt2;
 }
 
+double largest_speed(const Particles& p) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < p.size; ++i)
+    largest = std::max(largest, p.velocity[0][i] * p.velocity[0][i] + p.velocity[1][i] * p.velocity[1][i]);
+  return std::sqrt(largest);
+}
+
 CriticalStep critical_step(const System& system, double limit) {
   CriticalStep result{std::numeric_limits<double>::infinity(), 0.0, 0.0, ""};
   for (const Body& body : system.bodies) {
-    const Particles& p = body.particles;
-    double largest = 0.0;
-    for (std::size_t i = 0; i < p.size; ++i)
-      largest = std::max(largest, p.velocity[0][i] * p.velocity[0][i] + p.velocity[1][i] * p.velocity[1][i]);
-    const double c = body.material->wave_speed(), v = std::sqrt(largest);
+    const double c = body.material->wave_speed(), v = largest_speed(body.particles);
     const double step = limit * system.cell / (c + v);
     if (step < result.step) result = {step, c, v, body.name};
   }

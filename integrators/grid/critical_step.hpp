@@ -19,6 +19,9 @@ struct CriticalStep {
 /// leave a node nearly empty).
 double stability_limit(StepScheme scheme);
 
+/// Of a body's particles, m/s.
+double largest_speed(const Particles& particles);
+
 /// limit (steps per h / (c + |v|)) x cell / (wave speed + fastest particle), the least over all bodies.
 CriticalStep critical_step(const System& system, double limit);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/grid/critical_step.hpp"
+
 namespace vitrum::app {
 namespace {
 
@@ -45,6 +47,25 @@ void warn_of_motion(const Scene& scene, const System& system, Warnings& list) {
                       scene.at(fmt::format("body.{}.velocity", still(a) ? b : a)), scene.bodies[b].name,
                       scene.bodies[a].name, speed, scene.bodies[slow].name, wave));
     }
+}
+
+void warn_of_travel(const Scene& scene, const System& system, Warnings& list) {
+  if (scene.shape_functions != mpm::ShapeKind::linear) return;
+  constexpr double few = 3.0;  // cells
+  std::string fastest;
+  double speed = 0.0;
+  const auto consider = [&](const std::string& kind, const std::string& name, double of_it) {
+    if (of_it > speed) speed = of_it, fastest = fmt::format("{} '{}'", kind, name);
+  };
+  for (const Body& body : system.bodies) consider("body", body.name, largest_speed(body.particles));
+  for (const BoundaryDefinition& wall : scene.boundaries)
+    consider("boundary", wall.name, std::hypot(wall.velocity[0], wall.velocity[1]));
+  const double cells = speed * (scene.end - scene.start) / scene.cell;
+  if (cells > few)
+    list.push_back(fmt::format(
+        "{}: {} travels through {:.3g} cells, and linear functions make or lose energy at every crossing; "
+        "\"gimp\" and \"bspline2\" do not",
+        scene.at("space.shape_functions"), fastest, cells));
 }
 
 std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters) {

@@ -10,6 +10,10 @@ namespace vitrum::app {
 /// Scenes in which nothing moves; bodies that meet faster than waves travel in them.
 void warn_of_motion(const Scene& scene, const System& system, Warnings& list);
 
+/// Linear functions where bodies cross more than a few cells of the grid, by their speed at the start or that
+/// of a boundary: every crossing makes or loses energy.
+void warn_of_travel(const Scene& scene, const System& system, Warnings& list);
+
 /// What the end of an adaptive run tells: hardly a step was as long as its tolerance allowed.
 std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters);
 

@@ -63,9 +63,7 @@ void warn_of_scheme(const Scene& scene, Warnings& list) {
 
 void warn_of_long_phases(const Scene& scene, const System& system, const CriticalStep& critical,
                          Warnings& list) {
-  if (scene.integrator.method != GridMethod::arkode_implicit ||
-      scene.shape_functions == mpm::ShapeKind::bspline2)
-    return;
+  if (scene.integrator.method != GridMethod::arkode_implicit) return;
   const double phase =
       std::min(longest_phase(system, remap_settings(scene.integrator)), scene.end - scene.start);
   if (!(phase > 20.0 * critical.step)) return;
@@ -108,6 +106,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   for (const MaterialParameters& m : scene.materials)
     std::ranges::move(material_warnings(m), std::back_inserter(list));
   warn_of_motion(scene, system, list);
+  warn_of_travel(scene, system, list);
   warn_of_geometry(scene, system, list);
   for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several
   return list;

@@ -108,7 +108,7 @@ struct Scene {
   schema::NamedNumbers parameters;  ///< of formulas
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
-  mpm::ShapeKind shape_functions = mpm::ShapeKind::linear;
+  mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;
   Gradients gradients = Gradients::nodes;
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;

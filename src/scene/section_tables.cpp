@@ -73,7 +73,7 @@ const Table& space_table() {
         "side of the square grid cells; the grid is unbounded",
         required},
        {"shape_functions", &Scene::shape_functions, shape_functions,
-        "`linear`: the hat functions of the original method"},
+        "`linear`: the hat functions of the original method, for bodies that hardly cross cells"},
        {"gradients", &Scene::gradients, gradients,
         "velocity gradients between nodes, as in the original method, or between the centroids of what nodes "
         "collect: bodies that turn are not strained"}});

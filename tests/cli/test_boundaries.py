@@ -27,6 +27,15 @@ class Die(CommandLineTest):
                 self.run_scene(resumed.name, *settings, "--resume", scene=die)
                 self.assert_same_results(resumed, out)
 
+    def test_closes_its_account_with_the_default_functions(self):
+        for method, settings in methods.items():
+            if method == "usl":  # unstable where the edge of a body leaves a node nearly empty
+                continue
+            with self.subTest(method):
+                settings = (*settings, *overrides(space__shape_functions="none"))
+                energy = read_summary(self.run_scene(method, *settings, scene=die))["energy"]
+                self.assertLess(abs(energy["residual"]), 0.01 * energy["external"])
+
     def test_a_box_that_stays_lets_go(self):
         out = self.run_scene("out", "--set", "boundary.1.moves=false", scene=die)
         self.assertLess(read_summary(out)["energy"]["elastic"], 7e4)

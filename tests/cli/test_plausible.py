@@ -1,5 +1,6 @@
 """What is valid but hardly meant is warned of, before a run and at its end; what is meant is not."""
 import json
+import re
 import unittest
 
 from support import CommandLineTest, here, impact, overrides, read_summary, source
@@ -17,7 +18,18 @@ class Plausible(CommandLineTest):
     def test_usual_scenes(self):
         self.assertEqual(self.warnings(), [])
         for scene in (impact, source / "studies" / "paper" / "reference.toml"):
-            self.assertEqual([line for line in self.warnings(scene) if "snaps back" not in line and "critical step" not in line], [])
+            self.assertEqual([line for line in self.warnings(scene, space__shape_functions='"gimp"')
+                              if "snaps back" not in line and "critical step" not in line], [])
+
+    def test_linear_functions_and_travel(self):
+        told = r"key 'space\.shape_functions': body 'comes' travels through (\S+) cells"
+        self.assert_warns(told, space__shape_functions='"linear"', time__end=0.4e-3)  # 10 m/s, cells of 1 mm
+        (found,) = re.findall(told, "\n".join(self.warnings(space__shape_functions='"linear"', time__end=0.4e-3)))
+        self.assertEqual(float(found), 4.0)
+        for values in (dict(time__end=0.2e-3), dict(time__end=0.4e-3, space__shape_functions='"bspline2"')):
+            self.assertFalse(re.search(told, "\n".join(self.warnings(**{"space__shape_functions": '"linear"', **values}))), values)
+        die = here / "scenes" / "die.toml"
+        self.assert_warns("boundary 'die' travels through 4 cells", die, space__shape_functions='"linear"', boundary__1__velocity__1=-40.0)
 
     def test_wave_speed(self):
         self.assert_warns(r"--set 1: key 'material\.m\.young': waves travel at 0\.17\d+ m/s .*; "
