@@ -9,6 +9,7 @@
 #include "app/check_command.hpp"
 #include "app/compare_command.hpp"
 #include "app/messages.hpp"
+#include "app/new_command.hpp"
 #include "app/point_command.hpp"
 #include "app/run_command.hpp"
 #include "app/usage.hpp"
@@ -76,6 +77,12 @@ int obey(int argc, char** argv) {
   program.require_subcommand(0, 1);
   bool version = false;
   program.add_flag("--version", version, "versions of vitrum and of the libraries it is built with");
+
+  NewOptions fresh;
+  CLI::App& new_command = *program.add_subcommand("new", "a commented scene to begin with");
+  CLI::Option* named = new_command.add_option("TEMPLATE", fresh.name, "what it is of (default: impact)");
+  new_command.add_flag("--list", fresh.list, "the templates that there are")->excludes(named);
+  new_command.add_option("--out", fresh.out, "a new file (default: standard output)");
 
   RunOptions run;
   run.program = argv[0];
@@ -166,6 +173,7 @@ int obey(int argc, char** argv) {
     complain(usage_fault(program, error.what()));
     return exit_input;
   }
+  if (new_command) return new_scene(fresh);
   if (run_command) return run_scene(run);
   if (check_command) return check_scene(check);
   if (point_command) return drive_point(point);

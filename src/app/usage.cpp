@@ -55,6 +55,9 @@ std::string examples_of(std::string_view command) {
     std::string_view command, text;
   };
   constexpr std::array examples{
+      Example{"new", R"(  vitrum new --list
+  vitrum new impact > plate.toml
+  vitrum new drop-ball --out drop.toml)"},
       Example{"run", R"(  vitrum run plate.toml
   vitrum run plate.toml --out out/fast --set body.cylinder.velocity.1=-800 --threads 1
   vitrum run plate.toml --out out/fast --set body.cylinder.velocity.1=-600 --force
@@ -76,7 +79,8 @@ std::string examples_of(std::string_view command) {
       Example{"reference", R"(  vitrum reference > scene-reference.md
   vitrum reference --result > result-format.md
   vitrum reference --materials > materials.md)"},
-      Example{"", R"(  vitrum check plate.toml
+      Example{"", R"(  vitrum new impact > plate.toml
+  vitrum check plate.toml
   vitrum run plate.toml --out out/plate
   vitrum info out/plate
 vitrum COMMAND --help has more.)"},
