@@ -191,6 +191,12 @@ class Batch final : public Material {
     });
     if constexpr (dissipative) s.dissipated = p.start_variables[k][i];
   }
+  void load(const ParticleColumns& p, std::size_t i, PointState& point) const {
+    point.elastic_strain = tensor_at(p.start_strain, i);
+    const std::size_t own = p.start_variables.size() - (dissipative ? 1 : 0);
+    for (std::size_t k = 0; k < own; ++k) point.variables[k] = p.start_variables[k][i];
+    if constexpr (dissipative) point.dissipated = p.start_variables[own][i];
+  }
   void store_variables(const State& s, const ParticleColumns& p, std::size_t i) const {
     if (p.variables.empty()) return;
     std::size_t k = 0;

@@ -70,9 +70,10 @@ double Batch<Law>::take_inelastic(const ParticleColumns& p, std::size_t i, Room&
   const SymmetricTensor strain = tensor_at(p.strain_increment, i);
   point.clear();
   if (integrator == nullptr) {
+    load(p, i, s);
     advance(s, strain, duration, point);
   } else {
-    store(s, state);
+    load(p, i, state);
     integrator->integrate(*this, state, strain, duration, point);
     report.solver += point.solver;
     if (!point.failed()) s = load(state);
@@ -114,7 +115,6 @@ void Batch<Law>::advance(const ParticleColumns& p, std::size_t begin, std::size_
       if (!law_.mark_inelastic(p, first, last, duration, inelastic)) continue;
       for (std::size_t i = first; i < last; ++i) {
         if (inelastic[i - first] == 0.0) continue;
-        load(p, i, room.state);
         stored += take_elastic(p, elastic_from, i);
         stored += take_inelastic(p, i, room, duration, integrator, report);
         if (report.failed) return;  // the step fails, whatever comes after
@@ -124,7 +124,6 @@ void Batch<Law>::advance(const ParticleColumns& p, std::size_t begin, std::size_
     stored += take_elastic(p, elastic_from, end);
   } else {
     for (std::size_t i = begin; i < end; ++i) {
-      load(p, i, room.state);
       stored += take_inelastic(p, i, room, duration, integrator, report);
       if (report.failed) return;
     }

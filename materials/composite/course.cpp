@@ -7,9 +7,9 @@ namespace {
 
 class CompositeCourse final : public Course {
  public:
-  CompositeCourse(const CompositeModes& law, const CompositeState& start, const StrainPath& path,
+  CompositeCourse(const CompositeModes& law, const PointState& start, const StrainPath& path,
                   PointReport& report)
-      : law_(law), path_(path), state_(start), mode_(law.first_mode(state_, path, report)) {
+      : law_(law), path_(path), state_(law.load(start)), mode_(law.first_mode(state_, path, report)) {
     find_direction();
   }
 
@@ -66,7 +66,7 @@ class CompositeCourse final : public Course {
 
 Course& CompositeModes::enter(CourseRoom& room, const PointState& point, const StrainPath& path,
                               PointReport& report) const {
-  return room.emplace<CompositeCourse>(*this, load(point), path, report);
+  return room.emplace<CompositeCourse>(*this, point, path, report);
 }
 
 }  // namespace vitrum
