@@ -78,12 +78,6 @@ int obey(int argc, char** argv) {
   bool version = false;
   program.add_flag("--version", version, "versions of vitrum and of the libraries it is built with");
 
-  NewOptions fresh;
-  CLI::App& new_command = *program.add_subcommand("new", "a commented scene to begin with");
-  CLI::Option* named = new_command.add_option("TEMPLATE", fresh.name, "what it is of (default: impact)");
-  new_command.add_flag("--list", fresh.list, "the templates that there are")->excludes(named);
-  new_command.add_option("--out", fresh.out, "a new file (default: standard output)");
-
   RunOptions run;
   run.program = argv[0];
   run.command = whole_command(argc, argv);
@@ -162,6 +156,12 @@ int obey(int argc, char** argv) {
   reference_command.add_flag("--materials", materials, "the presets of materials with their sources instead")
       ->excludes(of_result)
       ->excludes("--schema");
+
+  NewOptions fresh;
+  CLI::App& new_command = *program.add_subcommand("new", "a commented scene to begin with");
+  CLI::Option* named = new_command.add_option("TEMPLATE", fresh.name, "what it is of (default: impact)");
+  new_command.add_flag("--list", fresh.list, "the templates that there are")->excludes(named);
+  new_command.add_option("--out", fresh.out, "a new file (default: standard output)");
 
   for (CLI::App* command : program.get_subcommands({})) command->footer(examples_of(command->get_name()));
   program.footer(examples_of(""));
