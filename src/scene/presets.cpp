@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/scene_tables.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 #include "vitrum_presets.hpp"
@@ -88,13 +89,17 @@ std::string value_cell(const toml::node& node) {
   return '[' + list + ']';
 }
 
-void add_rows(std::string& text, const toml::table& table, const std::string& path) {
-  for (const auto& [key, value] : table) {
-    const std::string below = scene::join_path(path, key.str());
+/// schema: of the table; what a preset says has been read by it.
+void add_rows(std::string& text, const toml::table& table, const schema::Table& schema,
+              const std::string& path) {
+  for (const auto& [name, value] : table) {
+    const std::string below = scene::join_path(path, name.str());
+    const schema::Key& key = *schema.find(name.str());
     if (const toml::table* keys = value.as_table())
-      add_rows(text, *keys, below);
+      add_rows(text, *keys, *key.table, below);
     else
-      text += fmt::format("| `{}` | {} |\n", below, value_cell(value));
+      text += fmt::format("| `{}` | {} | {} | {} |\n", below, value_cell(value),
+                          key.shape.kind == schema::Kind::text ? "" : key.unit, key.text);
   }
 }
 
@@ -104,7 +109,7 @@ std::string materials_page() {
   std::string text = R"(# Materials
 
 Presets: `[material.NAME]` with `preset = ".."` has the values below, each unless the scene gives its own (`preset = "copper"` and `young = 120e9`;
-`[material.NAME.johnson_cook]` and `temperature = 400.0`). `check` prints the scene with all of them filled in. SI units; what the keys mean is in the
+`[material.NAME.johnson_cook]` and `temperature = 400.0`). `check` prints the scene with all of them filled in. Bounds and defaults are in the
 [scene reference](scene-reference.md), the laws are in the [theory](theory.md#4-other-laws). Published constants are fits to some batch of a material under some loading:
 read the source before a conclusion depends on them.
 The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*.
@@ -113,9 +118,9 @@ This page is printed by the program from the table that its reader uses (`vitrum
 )";
   for (const auto& [name, preset] : scene::presets()) {
     const toml::table& table = *preset.as_table();
-    text += fmt::format("\n## `{}`\n\n{}.\n\n| key | value |\n|---|---|\n", name.str(),
-                        table["text"].value_or(std::string_view()));
-    add_rows(text, scene::values_of(preset), "");
+    text += fmt::format("\n## `{}`\n\n{}.\n\n| key | value | unit | meaning |\n|---|---|---|---|\n",
+                        name.str(), table["text"].value_or(std::string_view()));
+    add_rows(text, scene::values_of(preset), scene::material_table(), "");
     text += "\nSources:\n\n";
     for (const auto& [key, source] : *table["source"].as_table())
       text += fmt::format("- `{}`: {}.\n", key.str(), source.value_or(std::string_view()));
