@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, std::optional<double>>> quantities_of(
   std::vector<std::pair<std::string, std::optional<double>>> found;
   std::optional<Json> summary = read_json_object(directory / "summary.json");
   if (!summary) return found;
-  for (const char* block : {"time", "energy", "failure", "bodies"}) {
+  for (const char* block : {"time", "energy", "failure", "bodies", "contacts"}) {
     if (!summary->contains(block)) continue;
     Json& part = summary->at(block);
     if (part.is_object() && part.contains("fragments") && part["fragments"].is_object())

@@ -37,7 +37,7 @@ struct Comparison {
   std::string a, b;         ///< the results' files
   std::string energy_unit;  ///< "J", or "J/m" in plane strain
   std::vector<QuantityDifference>
-      quantities;  ///< energy, failure and bodies of the summaries; empty without two summaries
+      quantities;  ///< energy, failure, bodies and contacts of the summaries; empty without two summaries
   std::vector<TimeDifference> times;  ///< outputs that both have
   std::size_t outputs_a = 0, outputs_b = 0;
   std::string remark;           ///< why fields were not compared; empty when they were

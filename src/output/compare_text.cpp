@@ -32,12 +32,12 @@ std::string unit_of(const std::string& name, const std::string& energy_unit) {
   const auto is = [&name](std::string_view word) { return name.find(word) != std::string::npos; };
   const auto ends = [&name](std::string_view word) { return name.ends_with(word); };
   if (ends("time")) return "s";
-  if (is(".momentum.")) return energy_unit.ends_with("/m") ? "kg/s" : "kg m/s";
-  if (is(".centre.") || ends("radius") || ends("radius_max") || ends("opening") || ends(".r") || ends(".z"))
+  if (is(".momentum.") || is(".impulse.")) return energy_unit.ends_with("/m") ? "kg/s" : "kg m/s";
+  if (is(".centre.") || ends("radius") || ends("radius_max") || ends("opening") || ends("least_gap") || ends(".r") || ends(".z"))
     return "m";
   if (ends("mass")) return fmt::format("kg{}", per(energy_unit));
   if (ends("relative_residual") || ends("max_growth")) return "1";
-  return name.starts_with("energy.") || ends(".kinetic") ? energy_unit : "1";
+  return name.starts_with("energy.") || ends(".kinetic") || ends(".friction_work") ? energy_unit : "1";
 }
 
 Json as_json(const Comparison& c) {

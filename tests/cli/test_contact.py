@@ -90,6 +90,11 @@ class Contact(CommandLineTest):
             work[friction] = read_summary(out)["energy"]["friction"]
         self.assertEqual(work[0.0], 0.0)
         self.assertGreater(work[0.1], 1.0)
+        compared = json.loads(self.vitrum("compare", "pair-0.0", "pair-0.1", "--json").stdout)["quantities"]
+        rubbed = compared["contacts.0.friction_work"]
+        self.assertEqual((rubbed["a"], rubbed["unit"]), (0.0, "J/m"))
+        self.assertAlmostEqual(rubbed["b"] / work[0.1], 1.0, places=9)
+        self.assertEqual(compared["contacts.0.least_gap"]["unit"], "m")
 
 
 if __name__ == "__main__":
