@@ -55,7 +55,8 @@ bool ArkodeExplicit::advance(System& system, double target, StepObserver& observ
     const bool replaced = particles_->commit(step.time, solver_->y());
     system.time = step.limit == ArkSolver::Limit::stop ? stop : step.time;
     ++system.step_index;
-    count_step(step, solver_->counters(), before_, fixed.has_value(), state_.counters);
+    count_step(step, solver_->counters(), before_, fixed.has_value(), state_.counters,
+               particles_->contact_limits() ? StepLimit::contact : StepLimit::stability);
     state_.next_step = solver_->next_step();
     if (!observer.step_done(system, step.length)) return system.time >= target;
     if ((replaced || system.time == stop) && system.time < target) begin(system, target);

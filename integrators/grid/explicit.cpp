@@ -53,7 +53,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   stress.book();
   mpm::book_reactions(system, duration);
   mpm::coast(system, duration);
-  if (system.contact) system.contact->end_step(system, duration);
+  if (system.contact) system.contact->end_step(system);
   ++system.step_index;
 }
 
@@ -83,8 +83,7 @@ bool ExplicitIntegrator::advance_fixed(System& system, double target, StepObserv
     take_step(system, duration);
     count(duration);
     if (duration < *step_ * (1.0 - 1e-6)) {
-      ++state_.counters.limited_by_output;
-      state_.counters.last_limit = StepLimit::output;
+      state_.counters.count(StepLimit::output);
     }
     ++state_.segment_done;
     const bool last = state_.segment_done == state_.segment_steps;
@@ -117,8 +116,9 @@ bool ExplicitIntegrator::advance_courant(System& system, double target, StepObse
     take_step(system, duration);
     count(duration);
     const bool cut = duration < stable;
-    ++(cut ? state_.counters.limited_by_output : state_.counters.limited_by_stability);
-    state_.counters.last_limit = cut ? StepLimit::output : StepLimit::stability;
+    state_.counters.count(cut                         ? StepLimit::output
+                          : critical.touching.empty() ? StepLimit::stability
+                                                      : StepLimit::contact);
     system.time = last ? target : system.time + duration;
     if (!observer.step_done(system, duration)) return last;
   }
@@ -127,12 +127,14 @@ bool ExplicitIntegrator::advance_courant(System& system, double target, StepObse
 
 std::string ExplicitIntegrator::advice(const System& system, double step) const {
   // The critical step of the scene's own speeds: those of a run that has blown up would tell nothing.
-  double critical = std::numeric_limits<double>::infinity();
-  for (const Body& body : system.bodies)
-    critical = std::min(critical, stability_limit(scheme_) * system.cell / body.material->wave_speed());
+  const CriticalStep limit = critical_step(system, stability_limit(scheme_), Touching::any, Speeds::of_waves);
+  const double critical = limit.step;
   const std::string length =
-      fmt::format("the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest; try ",
-                  step, step / critical, critical);
+      fmt::format("the step {:.4g} s is {:.3g} times the critical step {:.4g} s of bodies at rest{}; try ",
+                  step, step / critical, critical,
+                  limit.touching.empty()
+                      ? ""
+                      : fmt::format(", which contact of '{}' and '{}' shortens", limit.body, limit.touching));
   // No smaller step would help.
   if (scheme_ == StepScheme::usl && step <= 0.5 * critical)
     return length +

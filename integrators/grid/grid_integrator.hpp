@@ -12,8 +12,19 @@ struct IntegratorCounters {
   std::int64_t steps = 0, rejected = 0, rhs_evaluations = 0, newton_iterations = 0, factorisations = 0;
   std::int64_t factor_entries = 0;        ///< most numbers in the sparse factors of a phase
   double step_min = 0.0, step_max = 0.0;  ///< s; 0 before the first step
-  std::int64_t limited_by_stability = 0, limited_by_accuracy = 0, limited_by_output = 0, limited_by_remap = 0;
+  std::int64_t limited_by_stability = 0, limited_by_contact = 0, limited_by_accuracy = 0,
+               limited_by_output = 0, limited_by_remap = 0;
   StepLimit last_limit = StepLimit::fixed;  ///< of the last step
+
+  /// Enters what kept a step from being longer.
+  void count(StepLimit limit) {
+    last_limit = limit;
+    if (limit == StepLimit::stability) ++limited_by_stability;
+    if (limit == StepLimit::contact) ++limited_by_contact;
+    if (limit == StepLimit::accuracy) ++limited_by_accuracy;
+    if (limit == StepLimit::output) ++limited_by_output;
+    if (limit == StepLimit::remap) ++limited_by_remap;
+  }
 };
 
 /// Sums over all steps of the estimated local error, a root mean square over the unknowns of a group,

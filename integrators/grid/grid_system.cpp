@@ -40,10 +40,9 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
     }
     if (system.contact) {
       Motion& m = motions_[n];
-      for (auto* columns : {&m.displacement, &m.position, &m.velocity})
+      for (auto* columns : {&m.displacement, &m.position})
         for (std::vector<double>& column : *columns) column.assign(particles, 0.0);
-      for (std::vector<double>& column : m.velocity_gradient) column.assign(particles, 0.0);
-      m.turn.assign(particles, 0.0), m.spin.assign(particles, 0.0);
+      m.turn.assign(particles, 0.0);
       targets.value = {m.displacement[0].data(), m.displacement[1].data()};
     }
     gradients_.push_back(targets);
@@ -60,7 +59,7 @@ void GridSystem::begin_phase() {
   mpm::number_unknowns(system_, nodes_);
   std::vector<mpm::CarrierPair> couplings;
   if (system_.contact) {
-    system_.contact->evaluate(system_, mpm::configurations(system_));
+    system_.contact->settle(system_);
     couplings = system_.contact->foresee(travel_ * system_.cell);
   }
   stiffness_.lay_out(system_, nodes_, couplings);
@@ -104,10 +103,9 @@ bool GridSystem::deform(double t, const double* y) {
   return changed.raised();
 }
 
-/// Whether bodies touch in the state deformed to. Patches turn by the antisymmetric part of the gradient:
+/// Where the particles are in the state deformed to. Patches turn by the antisymmetric part of the gradient:
 /// what a couple acts on (scatter.cpp). (Phases are short; it is the turn to the second order.)
-bool GridSystem::touch() {
-  if (!system_.contact) return false;
+std::vector<mpm::Configuration> GridSystem::places() {
   std::vector<mpm::Configuration> bodies = mpm::configurations(system_);
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const Particles& p = system_.bodies[n].particles;
@@ -121,27 +119,12 @@ bool GridSystem::touch() {
     });
     bodies[n] = {{m.position[0].data(), m.position[1].data()}, m.turn.data(), p.mirrored.data()};
   }
-  return system_.contact->evaluate(system_, bodies);
+  return bodies;
 }
 
-/// How particles move at y; zero where no friction asks. Fills the nodal velocity.
-std::vector<mpm::ParticleMotion> GridSystem::motions(const double* y) {
-  std::vector<mpm::ParticleMotion> list;
-  for (const Motion& m : motions_)
-    list.push_back({{m.velocity[0].data(), m.velocity[1].data()}, m.spin.data()});
-  if (!system_.contact->rubs()) return list;
-  mpm::fill_field(system_, nodes_, y + nodes_.size(), 1.0, Field::velocity_0);
-  std::vector<mpm::ParticleGradient> targets(motions_.size());
-  for (std::size_t n = 0; n < motions_.size(); ++n) {
-    Motion& m = motions_[n];
-    for (std::size_t k = 0; k < 5; ++k) targets[n].gradient[k] = m.velocity_gradient[k].data();
-    targets[n].value = {m.velocity[0].data(), m.velocity[1].data()};
-  }
-  mpm::gather_gradient(system_, targets);
-  for (Motion& m : motions_)
-    for (std::size_t i = 0; i < m.spin.size(); ++i)
-      m.spin[i] = 0.5 * (m.velocity_gradient[2][i] - m.velocity_gradient[1][i]);
-  return list;
+/// Whether bodies touch in that state.
+bool GridSystem::touch() {
+  return system_.contact && system_.contact->evaluate(system_, places());
 }
 
 /// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment
@@ -202,7 +185,7 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
   const std::size_t n = nodes_.size();
   const bool changed = deform(t, y);
   std::fill(rates + 2 * n, rates + size(), 0.0);
-  if (touch()) system_.contact->load(system_, motions(y), rates + 2 * n + (works_ ? 1 : 0));
+  if (touch()) system_.contact->load(system_, rates + 2 * n + (works_ ? 1 : 0));
   {
     const mpm::Trial::Scope scope(system_, trial_);
     set_increments(false);
@@ -222,32 +205,24 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
 
 bool GridSystem::linearise(double t, const double* y) {
   const bool changed = deform(t, y), touching = touch();
-  std::vector<mpm::ParticleMotion> motion;
-  if (touching) motion = motions(y);
   const mpm::Trial::Scope scope(system_, trial_);
   set_increments(false);
   try_stress(t, changed);
   mpm::gather_tangents(system_, trial_, std::max(0.0, t - committed_time_), tangents_);
   stiffness_.assemble(system_, nodes_, gradients_, tangents_, stiffness_values_);
-  damping_values_.clear();
-  if (touching) {
-    if (system_.contact->rubs()) damping_values_.assign(stiffness_values_.size(), 0.0);
-    system_.contact->linearise(motion, [&](const mpm::CarrierPair& pair, const mpm::Vector& normal,
-                                           double stiffness, const mpm::Vector& along, double damping) {
-      stiffness_.add(pair, normal, stiffness, stiffness_values_);
-      if (damping > 0.0) stiffness_.add(pair, along, damping, damping_values_);
-    });
-  }
+  if (touching)
+    system_.contact->linearise(
+        [&](const mpm::CarrierPair& pair, const mpm::Vector& force, const mpm::Vector& stretch,
+            double stiffness) { stiffness_.add(pair, force, stretch, stiffness, stiffness_values_); });
   double sum = 0.0;
   for (const double k : stiffness_values_) sum += k;
   return std::isfinite(sum);
 }
 
 void GridSystem::form(double gamma, double* values) const {
-  // (I - gamma J) x = b with u' = v, M v' = f(u, v): eliminating x_u leaves (M + gamma C + gamma^2 K) x_v =
-  // M b_v - gamma K b_u.
+  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma
+  // K b_u.
   for (std::size_t k = 0; k < stiffness_values_.size(); ++k) values[k] = gamma * gamma * stiffness_values_[k];
-  for (std::size_t k = 0; k < damping_values_.size(); ++k) values[k] += gamma * damping_values_[k];
   for (std::size_t k = 0; k < nodes_.size(); ++k) values[stiffness_.diagonal()[k]] += nodes_.mass[k];
 }
 
@@ -316,8 +291,9 @@ void GridSystem::commit(double t, const double* y) {
   reactions_.commit(system_, y + size());
   system_.record.particles_moved = false;
   if (system_.contact) {
-    touch();
-    system_.contact->commit(system_, changes_.data() + (works_ ? 1 : 0));
+    const std::vector<mpm::Configuration> bodies = places();
+    system_.contact->evaluate(system_, bodies);
+    system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
   }
 }
 
@@ -381,8 +357,7 @@ void GridSystem::add_errors(const double* errors, ErrorEstimate& estimate) const
 
 std::string GridSystem::describe(std::size_t unknown) const {
   const std::size_t n = nodes_.size();
-  if (unknown >= 2 * n)
-    return works_ && unknown == 2 * n ? "external work" : "impulse or friction of contact";
+  if (unknown >= 2 * n) return works_ && unknown == 2 * n ? "external work" : "impulse of contact";
   return fmt::format("{} {}", unknown < n ? "displacement" : "velocity",
                      mpm::describe_unknown(system_, nodes_, unknown % n));
 }

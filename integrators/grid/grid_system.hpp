@@ -18,8 +18,7 @@ namespace vitrum {
 
 /// The grid over one Lagrangian phase, in which particles keep their places and shape functions. Unknowns:
 /// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, the
-/// external work where there can be any, and for each pair of bodies with contact its impulse (2) and the
-/// work of friction:
+/// external work where there can be any, and for each pair of bodies with contact its impulse (2):
 ///   u' = v,  v' = f_i(u) / m_i,
 /// with the stress of each particle the material's response to (committed state, strain since the last
 /// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
@@ -80,15 +79,14 @@ class GridSystem final : public sundials::ReducibleSystem {
     TensorColumns committed_strain;
     std::vector<double> committed_turn;
   };
-  /// Where the particles are while a phase goes on, and how they move; only where bodies have contact.
+  /// Where the particles are while a phase goes on; only where bodies have contact.
   struct Motion {
-    std::array<std::vector<double>, 2> displacement, position, velocity;
-    std::array<std::vector<double>, 5> velocity_gradient;
-    std::vector<double> turn, spin;
+    std::array<std::vector<double>, 2> displacement, position;
+    std::vector<double> turn;
   };
   bool deform(double t, const double* y);
+  std::vector<mpm::Configuration> places();
   bool touch();
-  std::vector<mpm::ParticleMotion> motions(const double* y);
   void set_increments(bool as_committed);
   void try_stress(double t, bool changed);
   double weight_of_mass(std::size_t unknown) const;
@@ -104,7 +102,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   mpm::ReactionIntegrals reactions_;
   mpm::NodalUnknowns nodes_;
   mpm::Stiffness stiffness_;
-  std::vector<double> stiffness_values_, damping_values_;  ///< damping: empty where there is no friction
+  std::vector<double> stiffness_values_;
   std::vector<std::vector<TangentEntries>> tangents_;
   std::vector<Deformation> deformations_;         ///< by body
   std::vector<mpm::ParticleGradient> gradients_;  ///< pointers into them

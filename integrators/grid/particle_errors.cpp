@@ -82,8 +82,7 @@ double ParticleSystem::tolerance_of(std::size_t unknown) const {
 }
 
 std::string ParticleSystem::describe(std::size_t unknown) const {
-  if (unknown >= tail_)
-    return works_ && unknown == tail_ ? "external work" : "impulse or friction of contact";
+  if (unknown >= tail_) return works_ && unknown == tail_ ? "external work" : "impulse of contact";
   for (std::size_t n = system_.bodies.size(); n-- > 0;) {
     if (unknown < first_[n]) continue;
     const Body& body = system_.bodies[n];

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/particle_chunks.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/axis.hpp"
@@ -184,8 +185,10 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
       double& shear = system_.bodies[n].particles.tried_stress[3][i];
       shear = -shear;
     }
-  const bool touching = touch(y);
-  mpm::scatter(system_, touching ? mpm::Scatter::momentum : mpm::Scatter::momentum_and_force);
+  std::fill(rates + tail_, rates + size_, 0.0);
+  if (touch(y)) system_.contact->load(system_, rates + tail_ + (works_ ? 1 : 0));
+  mpm::scatter(system_, mpm::Scatter::momentum_and_force);
+  mpm::Contact::unload(system_);
   mpm::project_velocities(system_);
   std::vector<mpm::ParticleRates> targets(system_.bodies.size());
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -198,15 +201,6 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
                 at(strain + (hoop ? 3 : 2))};
     r.spin = at(turn());
     r.turn = y + place(n, turn());
-  }
-  std::fill(rates + tail_, rates + size_, 0.0);
-  if (touching) {  // friction depends on how the grid moves
-    mpm::gather_rates(system_, targets);
-    std::vector<mpm::ParticleMotion> motion;
-    for (const mpm::ParticleRates& r : targets) motion.push_back({{r.position[0], r.position[1]}, r.spin});
-    system_.contact->load(system_, motion, rates + tail_ + (works_ ? 1 : 0));
-    mpm::scatter(system_, mpm::Scatter::force);
-    mpm::Contact::unload(system_);
   }
   const double power = mpm::accelerate(system_);
   reactions_.rates(system_, rates + size_);
@@ -290,8 +284,9 @@ bool ParticleSystem::commit(double t, double* y) {
   reactions_.commit(system_, y + size_);
   const bool replaced = reflect(y);
   if (system_.contact) {
-    system_.contact->evaluate(system_, mpm::configurations(system_));
-    system_.contact->commit(system_, changes_.data() + (works_ ? 1 : 0));
+    const std::vector<mpm::Configuration> bodies = mpm::configurations(system_);
+    system_.contact->evaluate(system_, bodies);
+    system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
   }
   const bool carried = carry();
   system_.record.kinetic = kinetic_energy();
@@ -348,12 +343,20 @@ double ParticleSystem::stable_step(double /*t*/, const double* y) {
     of_parts_[k] = largest;
   });
   // The particle system's largest frequency is at most 2 sqrt(2) (c + |v|) / h for any particle positions.
-  double step = std::numeric_limits<double>::infinity();
+  double speed = 0.0, fastest = 0.0;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    const double speed = system_.bodies[parts_[k].body].material->wave_speed() + std::sqrt(of_parts_[k]);
-    step = std::min(step, oscillation_limit_ / std::sqrt(8.0) * system_.cell / speed);
+    const double v = std::sqrt(of_parts_[k]);
+    speed = std::max(speed, system_.bodies[parts_[k].body].material->wave_speed() + v);
+    fastest = std::max(fastest, v);
   }
-  return step;
+  const double step = oscillation_limit_ / std::sqrt(8.0) * system_.cell;
+  contact_limits_ = false;
+  for (std::size_t n = 0; system_.contact && n < system_.contact->pairs().size(); ++n) {
+    if (!(system_.contact->gap(n) <= 2.0 * fastest * step / speed)) continue;
+    const double stiff = speed_as_stiff(system_.contact->frequency_squared(n), system_.cell);
+    if (stiff > speed) speed = stiff, contact_limits_ = true;
+  }
+  return step / speed;
 }
 
 }  // namespace vitrum

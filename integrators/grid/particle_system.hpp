@@ -16,12 +16,13 @@ namespace vitrum {
 /// The particles as a system of ordinary differential equations. Unknowns of each body, one array after
 /// another: displacement since `begin` (2), velocity (2), strain (4; plane strain: 3) in the frame that turns
 /// with the particle, turn (1); at the end the external work, where there can be any, and for each pair of
-/// bodies with contact its impulse (2) and the work of friction. The grid is scratch:
+/// bodies with contact its impulse (2). The grid is scratch:
 ///   x' = sum N v_i,  v' = sum N f_i / m_i,  e' = R^T D R,  w' = spin,  with R the rotation by w,
 /// and the stress is the material's response to (committed state, strain since the last commit, time since
-/// then). Errors are relative to the cell, the scene's velocity scale, and its strain scale plus the
-/// particle's strain in the last step: where a step strains by much more than the elastic limit something
-/// flows or opens, and the stress depends on the direction of the strain rather than on its size.
+/// then); so is the friction of contact, to how surfaces have moved since. Errors are relative to the cell,
+/// the scene's velocity scale, and its strain scale plus the particle's strain in the last step: where a step
+/// strains by much more than the elastic limit something flows or opens, and the stress depends on the
+/// direction of the strain rather than on its size.
 class ParticleSystem final : public sundials::ArkSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales. oscillation_limit: largest phase of an
@@ -34,6 +35,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   bool rates(double t, const double* y, double* rates) override;
   void error_weights(double* weights) const override;
   double stable_step(double t, const double* y) override;
+  /// Whether contact, stiffer than the grid, was what `stable_step` found last.
+  bool contact_limits() const { return contact_limits_; }
   std::size_t parts() const override { return parts_.size(); }
   void for_ranges(RangeTask task, void* context) const override;
 
@@ -111,6 +114,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::vector<std::array<std::vector<double>, 2>> turned_;
   std::vector<double> committed_tail_, changes_;
   double committed_time_ = 0.0;
+  bool contact_limits_ = false;
   double carried_work_ = 0.0;  ///< done at `begin`, not booked yet
 };
 

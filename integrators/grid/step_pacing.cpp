@@ -51,21 +51,16 @@ std::string failed_step(const sundials::ArkSolver::Step& step, const std::option
 }
 
 void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver::Counters& work,
-                const IntegratorCounters& before, bool fixed, IntegratorCounters& c) {
+                const IntegratorCounters& before, bool fixed, IntegratorCounters& c, StepLimit stability) {
   using Limit = sundials::ArkSolver::Limit;
   c.step_min = c.steps == 0 ? step.length : std::min(c.step_min, step.length);
   c.step_max = std::max(c.step_max, step.length);
   ++c.steps;
   count_work(work, before, c);
-  if (fixed) {
-    c.last_limit = StepLimit::fixed;
-  } else if (step.limit == Limit::stop) {
-    c.last_limit = StepLimit::output, ++c.limited_by_output;
-  } else if (step.limit == Limit::stability) {
-    c.last_limit = StepLimit::stability, ++c.limited_by_stability;
-  } else {
-    c.last_limit = StepLimit::accuracy, ++c.limited_by_accuracy;
-  }
+  c.count(fixed                            ? StepLimit::fixed
+          : step.limit == Limit::stop      ? StepLimit::output
+          : step.limit == Limit::stability ? stability
+                                           : StepLimit::accuracy);
 }
 
 std::optional<std::size_t> first_not_finite(const double* values, std::size_t size) {

@@ -22,9 +22,10 @@ std::string failed_step(const sundials::ArkSolver::Step& step, const std::option
                         const std::optional<double>& shortest, double critical_step);
 
 /// Enters a step and the solver's work into the counters of a run. before: the counters when the solver was
-/// made.
+/// made; stability: what is to blame where the method's stability limits the step.
 void count_step(const sundials::ArkSolver::Step& step, const sundials::ArkSolver::Counters& work,
-                const IntegratorCounters& before, bool fixed, IntegratorCounters& counters);
+                const IntegratorCounters& before, bool fixed, IntegratorCounters& counters,
+                StepLimit stability = StepLimit::stability);
 
 /// The first value that is not finite.
 std::optional<std::size_t> first_not_finite(const double* values, std::size_t size);

@@ -69,6 +69,7 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
           {"bodies", bodies},
           {"critical_step", critical.step},
           {"critical_body", critical.body},
+          {"critical_contact", critical.touching.empty() ? json(nullptr) : json(critical.touching)},
           {"step", known(step)},
           {"step_to_critical", of_step([&](double s) { return s / critical.step; })},
           {"steps", work.is_planned ? json(work.steps) : json(nullptr)},
@@ -108,9 +109,10 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
           "says\n",
           body.name, body.material->parameters().name);
   text += fmt::format(
-      "# critical step {}{:.6g} s (body '{}')\n",
+      "# critical step {}{:.6g} s (body '{}'{})\n",
       scene.integrator.method == GridMethod::arkode_implicit ? "(explicit MUSL's, for comparison) " : "",
-      facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>());
+      facts["critical_step"].get<double>(), facts["critical_body"].get<std::string>(),
+      contact_text(critical_step_of(scene.integrator, system)));
   if (facts["step"].is_number())
     text += fmt::format("# step {:.6g} s, ratio {:.4g}; {:.0f} steps\n", facts["step"].get<double>(),
                         facts["step_to_critical"].get<double>(), facts["steps"].get<double>());

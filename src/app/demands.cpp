@@ -76,13 +76,20 @@ std::string step_key(const IntegratorDefinition& i) {
 CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system) {
   switch (integrator.method) {
     case GridMethod::explicit_steps:
-      return critical_step(system, stability_limit(integrator.scheme));
+      return critical_step(system, stability_limit(integrator.scheme), Touching::any);
     case GridMethod::arkode_explicit:
-      return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0));
+      return critical_step(system, butcher_table(integrator).oscillation_limit() / std::sqrt(8.0),
+                           Touching::any);
     case GridMethod::arkode_implicit:
-      return critical_step(system, stability_limit(StepScheme::musl));
+      return critical_step(system, stability_limit(StepScheme::musl), Touching::any);
   }
   return {};
+}
+
+std::string contact_text(const CriticalStep& critical) {
+  return critical.touching.empty()
+             ? ""
+             : fmt::format("; contact with '{}' is stiffer than the grid", critical.touching);
 }
 
 std::optional<double> planned_step(const IntegratorDefinition& integrator, const CriticalStep& critical) {

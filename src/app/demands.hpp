@@ -57,8 +57,11 @@ double disk_space_of(const Scene& scene, const System& system, bool with_fields)
 void require_disk(const Scene& scene, double bytes, const std::filesystem::path& folder);
 
 /// The critical step of the scene's method: of an explicit scheme, of an explicit Butcher table, or (for
-/// comparison: an implicit method has none) that of MUSL.
+/// comparison: an implicit method has none) that of MUSL. All bodies with contact are taken to touch.
 CriticalStep critical_step_of(const IntegratorDefinition& integrator, const System& system);
+
+/// "; contact with 'NAME' is stiffer than the grid", where it is what sets the critical step.
+std::string contact_text(const CriticalStep& critical);
 
 /// The step that the scene fixes; none where it adapts to the error.
 std::optional<double> planned_step(const IntegratorDefinition& integrator, const CriticalStep& critical);

@@ -82,6 +82,7 @@ std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCo
     std::int64_t steps;
   };
   const Limit limits[] = {{"stability", counters.limited_by_stability},
+                          {"contact", counters.limited_by_contact},
                           {"outputs", counters.limited_by_output},
                           {"remaps", counters.limited_by_remap}};
   const Limit& most = *std::ranges::max_element(limits, {}, &Limit::steps);

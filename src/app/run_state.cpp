@@ -27,6 +27,7 @@ void visit_numbers(State& s, Visit&& visit) {
   visit("integrator.step_min", c.step_min);
   visit("integrator.step_max", c.step_max);
   visit("integrator.limited_by_stability", c.limited_by_stability);
+  visit("integrator.limited_by_contact", c.limited_by_contact);
   visit("integrator.limited_by_accuracy", c.limited_by_accuracy);
   visit("integrator.limited_by_output", c.limited_by_output);
   visit("integrator.limited_by_remap", c.limited_by_remap);

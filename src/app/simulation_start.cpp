@@ -54,7 +54,7 @@ void Simulation::resume() {
   system_.constitutive_events = state_.events;
   system_.constitutive_solver = state_.solver;
   mpm::restore_coasting(system_, state_.coasting);
-  if (system_.contact && !system_.contact->restore(state_.contact))
+  if (system_.contact && !system_.contact->restore(system_, state_.contact))
     throw FileError("checkpoint: 'run.contact' does not fit this scene");
   observers_.restore(checkpoint.state);
   integrator_->restore(state_.integrator);

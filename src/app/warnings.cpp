@@ -48,9 +48,9 @@ void warn_of_step(const Scene& scene, const CriticalStep& critical, Warnings& li
   if (scene.integrator.method != GridMethod::arkode_implicit && step > critical.step)
     list.push_back(
         fmt::format("{}: {:.4g} s is {:.3g} times the critical step {:.4g} s (body '{}': wave speed {:.4g} "
-                    "m/s, fastest particle {:.4g} m/s); energy will grow",
+                    "m/s, fastest particle {:.4g} m/s{}); energy will grow",
                     scene.at(step_key(scene.integrator)), step, step / critical.step, critical.step,
-                    critical.body, critical.wave_speed, critical.travel_speed));
+                    critical.body, critical.wave_speed, critical.travel_speed, contact_text(critical)));
 }
 
 void warn_of_scheme(const Scene& scene, Warnings& list) {

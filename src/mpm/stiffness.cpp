@@ -110,22 +110,27 @@ std::vector<std::vector<std::int64_t>> Stiffness::coupled_rows(std::size_t unkno
   return rows;
 }
 
-void Stiffness::add(const CarrierPair& pair, const Vector& direction, double size,
+void Stiffness::add(const CarrierPair& pair, const Vector& force, const Vector& stretch, double size,
                     std::vector<double>& values) const {
-  std::vector<std::pair<std::int64_t, double>> stretch;  // of the spring, by unknown
+  struct Entry {
+    std::int64_t unknown;
+    double force, stretch;
+  };
+  std::vector<Entry> entries;
   const auto list = [&](std::size_t body, std::size_t particle, double sign) {
-    if (const auto entry = shares_.find(key_of(body, particle)); entry != shares_.end())
-      for (const Share& s : entry->second)
-        stretch.emplace_back(s.unknown, sign * s.weight * direction[s.component]);
+    if (const auto shares = shares_.find(key_of(body, particle)); shares != shares_.end())
+      for (const Share& s : shares->second)
+        entries.push_back(
+            {s.unknown, sign * s.weight * force[s.component], sign * s.weight * stretch[s.component]});
   };
   list(pair.body_a, pair.particle_a, -1.0), list(pair.body_b, pair.particle_b, 1.0);
-  for (const auto& [column, by_column] : stretch) {
-    const auto k = static_cast<std::size_t>(column);
+  for (const Entry& column : entries) {
+    const auto k = static_cast<std::size_t>(column.unknown);
     const auto first = pattern_.row.begin() + pattern_.column[k],
                last = pattern_.row.begin() + pattern_.column[k + 1];
-    for (const auto& [row, by_row] : stretch)
-      if (const auto at = std::find(first, last, row); at != last)
-        values[static_cast<std::size_t>(at - pattern_.row.begin())] += size * by_row * by_column;
+    for (const Entry& row : entries)
+      if (const auto at = std::find(first, last, row.unknown); at != last)
+        values[static_cast<std::size_t>(at - pattern_.row.begin())] += size * row.force * column.stretch;
   }
 }
 

@@ -28,9 +28,10 @@ class Stiffness {
   void assemble(const System& system, const NodalUnknowns& unknowns,
                 std::span<const ParticleGradient> gradients,
                 std::span<const std::vector<TangentEntries>> tangents, std::vector<double>& values) const;
-  /// Adds a spring (or damper) between two particles along a direction. Of particles that `lay_out` was not
-  /// told of, what has no place in the pattern is left out.
-  void add(const CarrierPair& pair, const Vector& direction, double size, std::vector<double>& values) const;
+  /// Adds a spring between two particles, which pulls along one direction when it is stretched along another.
+  /// Of particles that `lay_out` was not told of, what has no place in the pattern is left out.
+  void add(const CarrierPair& pair, const Vector& force, const Vector& stretch, double size,
+           std::vector<double>& values) const;
 
  private:
   /// Neighbours of a node are told by their offset in [-2, 2]^2.

@@ -56,6 +56,7 @@ Json integrator_block(const RunSummary& summary) {
           {"step_max", step(counters.step_max)},
           {"limited_by",
            {{"stability", counters.limited_by_stability},
+            {"contact", counters.limited_by_contact},
             {"accuracy", counters.limited_by_accuracy},
             {"output", counters.limited_by_output},
             {"remap", counters.limited_by_remap}}},

@@ -1,12 +1,6 @@
 #include "scene/build_contact.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "mpm/contact/contact.hpp"
-#include "scene/input_error.hpp"
 #include "scene/surface_patches.hpp"
 
 namespace vitrum {
@@ -37,26 +31,6 @@ double stiffness_between(const Scene& scene, const Body& a, const Body& b) {
   return scene.contact.stiffness * 2.0 * of_a * of_b / (of_a + of_b) / scene.cell;
 }
 
-/// A hundredth of the speeds that the scene sets out with or comes to: of its bodies, its boundaries, or of a
-/// fall through a cell.
-double slip_speed(const Scene& scene, const System& system) {
-  if (scene.contact.slip_speed) return *scene.contact.slip_speed;
-  double fastest = std::sqrt(std::hypot(scene.gravity[0], scene.gravity[1]) * scene.cell);
-  for (const Body& body : system.bodies)
-    for (std::size_t i = 0; i < body.particles.size; ++i)
-      fastest = std::max(fastest, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
-  for (const BoundaryDefinition& wall : scene.boundaries)
-    fastest = std::max(fastest, std::hypot(wall.velocity[0], wall.velocity[1]));
-  return fastest > 0.0 ? 0.01 * fastest : 1.0;
-}
-
-/// Bodies that stick: friction without a bound is no function of the state that an ODE solver could take.
-void require_finite(const Scene& scene, double friction) {
-  if (scene.integrator.method != GridMethod::explicit_steps && std::isinf(friction))
-    throw InputError(fmt::format("{}: found friction = inf, expected a finite coefficient with ARKODE",
-                                 scene.at("contact.friction")));
-}
-
 }  // namespace
 
 void build_contact(const Scene& scene, System& system) {
@@ -74,9 +48,7 @@ void build_contact(const Scene& scene, System& system) {
            friction_between(scene, a, b),
            may_break(system.bodies[a]) || may_break(system.bodies[b])});
   }
-  for (const mpm::BodyPair& pair : pairs) require_finite(scene, pair.friction);
-  system.contact =
-      std::make_shared<mpm::Contact>(system, std::move(pairs), patches, slip_speed(scene, system));
+  system.contact = std::make_shared<mpm::Contact>(system, std::move(pairs), patches);
 }
 
 }  // namespace vitrum

@@ -33,18 +33,16 @@ const Table& contact_table() {
         "cells early; `bodies`: a field for each body, and contact of their surfaces: they touch, slide and "
         "part"},
        {"friction", &C::friction, "1", friction_bounds,
-        "bodies: Coulomb's coefficient; inf: bodies stick where they are pressed together"},
+        "bodies: Coulomb's coefficient; below its bound surfaces stick, by a spring as stiff as that of a "
+        "penetration; inf: they stick wherever they are pressed together"},
        {"stiffness", &C::stiffness, "1", intervals::positive,
         "bodies: pressure of a penetration, relative to that of the two materials over a cell; stiffer is "
-        "not better: 1 is about as stiff as the grid"},
+        "not better: 1 is about as stiff as the grid, and more shortens the steps of explicit methods"},
        {"depth",
         &C::depth,
         "cells",
         {0.0, 2.0, true, false},
         "bodies: penetration at which a surface gives way; the largest pressure is at half of it"},
-       {"slip_speed", &C::slip_speed, "m/s", intervals::positive,
-        "bodies: friction has its full size from this speed on; absent: a hundredth of the largest speed of "
-        "the scene's start and boundaries"},
        {"pair", &C::pairs, pair_table(), "overrides for two bodies"}});
   return table;
 }

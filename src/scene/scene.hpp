@@ -95,10 +95,9 @@ struct ContactPair {
 struct ContactDefinition {
   bool stated = false;  ///< the scene has a table [contact]
   ContactMethod method = ContactMethod::single;
-  double friction = 0.0;             ///< may be infinite
-  double stiffness = 1.0;            ///< of the two materials over a cell
-  double depth = 0.5;                ///< cells
-  std::optional<double> slip_speed;  ///< m/s; none: from the scene's speeds
+  double friction = 0.0;   ///< may be infinite
+  double stiffness = 1.0;  ///< of the two materials over a cell
+  double depth = 0.5;      ///< cells
   std::vector<ContactPair> pairs;
 };
 

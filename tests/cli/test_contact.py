@@ -78,7 +78,7 @@ class Contact(CommandLineTest):
             self.assertIn(message, answer.stderr)
         twice = '[{bodies=["plate","block"],friction=0.1},{bodies=["block","plate"],friction=0.1}]'
         self.assertIn("no other [[contact.pair]]", self.vitrum("check", slide, "--set", "contact.pair=" + twice, status=2).stderr)
-        for key, value in (("friction", -0.1), ("stiffness", 0.0), ("depth", 3.0), ("slip_speed", 0.0), ("method", '"glue"')):
+        for key, value in (("friction", -0.1), ("stiffness", 0.0), ("depth", 3.0), ("method", '"glue"')):
             self.assertIn(f"contact.{key}", self.vitrum("check", slide, "--set", f"contact.{key}={value}", status=2).stderr)
 
     def test_pairs(self):

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 namespace vitrum::mpm {
 namespace {
@@ -33,9 +34,8 @@ std::vector<Configuration> configurations(const System& system) {
   return list;
 }
 
-Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches,
-                 double slip_speed)
-    : pairs_(std::move(pairs)), history_(pairs_.size()), slip_speed_(slip_speed), first_{0} {
+Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches)
+    : pairs_(std::move(pairs)), history_(pairs_.size()), first_{0} {
   for (const std::vector<Patch>& of_body : patches) {
     patches_.insert(patches_.end(), of_body.begin(), of_body.end());
     first_.push_back(patches_.size());
@@ -45,15 +45,36 @@ Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<
     body.particles.mirrored.assign(body.particles.size, 1.0);
   }
   find_carriers(system);
-  for (std::size_t body = 0; body < system.bodies.size(); ++body)
-    for (std::size_t k = first_[body]; k < first_[body + 1]; ++k) {
-      const auto& v = system.bodies[body].particles.velocity;
-      const std::size_t i = place_[body][patches_[k].carrier];
-      velocity_.push_back({v[0][i], v[1][i]});
-    }
   find_deep_particles(system);
-  evaluate(system, configurations(system));
-  note_state(system);
+  std::vector<double> per_mass;
+  for (std::size_t body = 0; body < system.bodies.size(); ++body) find_frequencies(system, body, per_mass);
+  for (const BodyPair& pair : pairs_)
+    frequencies_squared_.push_back(pair.law.stiffness * (per_mass[pair.a] + per_mass[pair.b]));
+  const std::vector<Configuration> bodies = configurations(system);
+  evaluate(system, bodies);
+  keep(system, bodies);
+}
+
+/// The largest surface that one particle carries along one normal over its mass, m^2/kg (the largest
+/// eigenvalue of sum length ring n n^T); that of a particle's own side where none is larger.
+void Contact::find_frequencies(const System& system, std::size_t body, std::vector<double>& per_mass) const {
+  const Body& of = system.bodies[body];
+  double largest = 1.0 / (of.material->density() * 2.0 * of.particle_half_size);
+  std::unordered_map<std::uint32_t, Vector> surfaces;  // sum length ring (1, cos 2 angle, sin 2 angle)
+  std::unordered_map<std::uint32_t, double> areas;
+  for (std::size_t k = first_[body]; k < first_[body + 1]; ++k) {
+    const Patch& p = patches_[k];
+    const double area = p.length * p.ring;
+    areas[p.carrier] += area;
+    Vector& s = surfaces[p.carrier];
+    s[0] += area * std::cos(2.0 * p.angle), s[1] += area * std::sin(2.0 * p.angle);
+  }
+  for (const auto& [carrier, area] : areas) {
+    const Vector& s = surfaces[carrier];
+    largest =
+        std::max(largest, 0.5 * (area + std::hypot(s[0], s[1])) / of.particles.mass[place_[body][carrier]]);
+  }
+  per_mass.push_back(largest);
 }
 
 /// Those that stand in the second row or deeper: they touch nothing unless a crack has laid them open.
@@ -87,12 +108,11 @@ void Contact::find_carriers(const System& system) {
 
 void Contact::place_patches(const System& system, std::span<const Configuration> bodies) {
   find_carriers(system);
-  placed_.resize(patches_.size()), places_.resize(patches_.size()), mirrored_.resize(patches_.size());
+  placed_.resize(patches_.size()), places_.resize(patches_.size());
   for (std::size_t body = 0; body < bodies.size(); ++body)
     for (std::size_t k = first_[body]; k < first_[body + 1]; ++k) {
       const std::size_t i = place_[body][patches_[k].carrier];
       placed_[k] = placed(patches_[k], bodies[body], i), places_[k] = placed_[k].place;
-      mirrored_[k] = bodies[body].mirrored[i];
     }
 }
 
@@ -117,15 +137,9 @@ void Contact::find_touches(const System& system, std::span<const Configuration> 
       const auto patch_a = static_cast<std::uint32_t>(first_[pair.a] + i),
                  patch_b = static_cast<std::uint32_t>(first_[pair.b] + j);
       const Vector apart = difference(b[j].place, a[i].place);
-      touches_.push_back({n,
-                          patches_[patch_a].carrier,
-                          patches_[patch_b].carrier,
-                          patch_a,
-                          patch_b,
-                          a[i].arm,
-                          b[j].arm,
-                          {0.5 * apart[0], 0.5 * apart[1]},
-                          force});
+      const TouchKey key{static_cast<std::uint32_t>(n), patch_a, patch_b, patches_[patch_a].carrier,
+                         patches_[patch_b].carrier};
+      touch(bodies, {key, a[i].arm, b[j].arm, {0.5 * apart[0], 0.5 * apart[1]}, force});
     });
     if (pair.may_break) find_touches_of_particles(system, bodies, n);
   }
@@ -160,16 +174,52 @@ void Contact::find_touches_of_particles(const System& system, std::span<const Co
         gaps_[n] = std::min(gaps_[n], force.gap);
         const auto arm = [&](double size) { return Vector{size * force.normal[0], size * force.normal[1]}; };
         const double half = 0.5 * force.gap;
-        touches_.push_back({n,
-                            i,
-                            j,
-                            none,
-                            none,
-                            arm(a.particle_half_size + half),
-                            arm(-b.particle_half_size - half),
-                            {},
-                            force});
+        const TouchKey key{static_cast<std::uint32_t>(n), TouchKey::none, TouchKey::none, i, j};
+        touch(bodies, {key, arm(a.particle_half_size + half), arm(-b.particle_half_size - half), {}, force});
       });
+}
+
+Grip Contact::grip_of(const TouchKey& key, const Spring& spring,
+                      std::span<const Configuration> bodies) const {
+  const BodyPair& pair = pairs_[key.pair];
+  const Configuration &a = bodies[pair.a], &b = bodies[pair.b];
+  const std::size_t i = place_[pair.a][key.carrier_a], j = place_[pair.b][key.carrier_b];
+  return {key,          spring,    {b.position[0][j] - a.position[0][i], b.position[1][j] - a.position[1][i]},
+          a.turn[i],    b.turn[j], a.mirrored[i],
+          b.mirrored[j]};
+}
+
+/// How far b has slid along the surface over a where they touch, m: each carrier moves, and turns about
+/// itself (by the chord, so that turning as one is no sliding).
+double Contact::way(const Touch& t, const Grip& before, const Grip& now) const {
+  const double turn_a = now.turn_a - before.turn_a, turn_b = now.turn_b - before.turn_b,
+               mean = 0.5 * (turn_a + turn_b), rolling = 0.5 * (turn_b - turn_a);
+  // The carriers' arms to the middle are apart by `apart`.
+  const Vector arms{t.arm_a[0] + t.arm_b[0], t.arm_a[1] + t.arm_b[1]};
+  Vector slid{};
+  for (std::size_t c = 0; c < 2; ++c) {
+    const std::size_t other = 1 - c;
+    const double sign = c == 0 ? -1.0 : 1.0;
+    const double chord = 0.5 * (before.apart[other] + now.apart[other]);
+    slid[c] = now.apart[c] - before.apart[c] + sign * (rolling * arms[other] - mean * chord);
+  }
+  return slid[1] * t.force.normal[0] - slid[0] * t.force.normal[1];
+}
+
+/// Enters a touch, with its friction.
+void Contact::touch(std::span<const Configuration> bodies, Touch&& t) {
+  if (const double friction = pairs_[t.key.pair].friction; friction > 0.0) {
+    const double bound = t.force.pressure > 0.0 ? friction * t.force.pressure : 0.0;
+    const auto grip = std::ranges::lower_bound(grips_, t.key, {}, &Grip::key);
+    const Grip now = grip_of(t.key, {}, bodies);
+    if (grip == grips_.end() || grip->key != t.key)
+      t.friction = {{0.0, t.force.grip}, 0.0, true};  // no way from anywhere yet
+    else if (grip->side_a != now.side_a || grip->side_b != now.side_b)  // a carrier has crossed the axis
+      t.friction = {{0.0, t.force.grip}, grip->spring.energy(), true};
+    else
+      t.friction = stretch(grip->spring, t.force.grip, bound, way(t, *grip, now));
+  }
+  touches_.push_back(std::move(t));
 }
 
 std::vector<CarrierPair> Contact::foresee(double margin) {
@@ -183,7 +233,7 @@ std::vector<CarrierPair> Contact::foresee(double margin) {
                  });
   }
   for (const Touch& t : touches_)
-    if (t.patch_a == none) list.push_back(carriers_of(t.pair, t.carrier_a, t.carrier_b));
+    if (!t.key.of_patches()) list.push_back(carriers_of(t.key.pair, t.key.carrier_a, t.key.carrier_b));
   return list;
 }
 
@@ -193,27 +243,42 @@ bool Contact::evaluate(const System& system, std::span<const Configuration> bodi
   return !touches_.empty();
 }
 
-/// The state evaluated is the system's.
-void Contact::note_state(System& system) {
-  system.record.contact = 0.0;
-  for (const Touch& t : touches_) system.record.contact += t.force.energy;
+/// Makes the state evaluated the system's: its energy, its springs, and what has become heat on the way to
+/// it.
+void Contact::keep(System& system, std::span<const Configuration> bodies) {
+  StepRecord& record = system.record;
+  record.contact = record.friction = 0.0;
+  const auto book = [&](const TouchKey& key, double lost) {
+    record.friction += lost, history_[key.pair].friction_work += lost;
+  };
+  next_grips_.clear();
+  auto former = grips_.begin();
+  const auto let_go_until = [&](const auto& is_past) {
+    for (; former != grips_.end() && !is_past(former->key); ++former)
+      book(former->key, former->spring.energy());
+  };
+  for (const Touch& t : touches_) {
+    record.contact += t.force.energy + t.friction.spring.energy();
+    if (pairs_[t.key.pair].friction == 0.0) continue;
+    let_go_until([&](const TouchKey& key) { return !(key < t.key); });
+    if (former != grips_.end() && former->key == t.key) ++former;
+    book(t.key, t.friction.lost);
+    next_grips_.push_back(grip_of(t.key, t.friction.spring, bodies));
+  }
+  let_go_until([](const TouchKey&) { return false; });
+  grips_.swap(next_grips_);
   for (std::size_t n = 0; n < pairs_.size(); ++n)
     history_[n].least_gap = std::min(history_[n].least_gap, gaps_[n]);
 }
 
-/// Friction on b, which slides over a with a velocity, as a function of the speed along the surfaces.
-template <class Size>
-Vector Contact::rub(const Touch& t, const Vector& sliding, const Size& size_of, double& power) const {
-  const Vector along{-t.force.normal[1], t.force.normal[0]};
-  const double slip = dot(sliding, along), speed = std::abs(slip);
-  if (pairs_[t.pair].friction == 0.0 || speed == 0.0 || t.force.pressure == 0.0) return {};
-  const double size = size_of(speed);
-  power = size * speed;
-  return {-std::copysign(size, slip) * along[0], -std::copysign(size, slip) * along[1]};
+void Contact::settle(const System& system) {
+  find_carriers(system);
+  const std::vector<Configuration> bodies = configurations(system);
+  for (Grip& grip : grips_) grip = grip_of(grip.key, grip.spring, bodies);
+  evaluate(system, bodies);
 }
 
-/// friction: on b.
-void Contact::push(System& system, const Touch& t, const Vector& friction) const {
+void Contact::push(System& system, const Touch& t) const {
   const auto add = [&](std::size_t body, std::size_t carrier, const Vector& arm, const Vector& force,
                        double couple) {
     Particles& p = system.bodies[body].particles;
@@ -223,10 +288,12 @@ void Contact::push(System& system, const Touch& t, const Vector& friction) const
     p.contact_force[0][i] += force[0], p.contact_force[1][i] += force[1];
     p.contact_force[2][i] += couple + cross(arm, force);
   };
+  const BodyPair& pair = pairs_[t.key.pair];
+  const Vector friction = friction_on_b(t);
   const Vector on_b{t.force.force[0] + friction[0], t.force.force[1] + friction[1]};
   const double of_friction = cross(t.half, friction);  // which acts in the middle, on both
-  add(pairs_[t.pair].b, t.carrier_b, t.arm_b, on_b, t.force.couple_b - of_friction);
-  add(pairs_[t.pair].a, t.carrier_a, t.arm_a, {-on_b[0], -on_b[1]}, t.force.couple_a - of_friction);
+  add(pair.b, t.key.carrier_b, t.arm_b, on_b, t.force.couple_b - of_friction);
+  add(pair.a, t.key.carrier_a, t.arm_a, {-on_b[0], -on_b[1]}, t.force.couple_a - of_friction);
 }
 
 void Contact::unload(System& system) {
@@ -236,107 +303,76 @@ void Contact::unload(System& system) {
 
 void Contact::begin_step(System& system, double duration) {
   find_carriers(system);
-  if (!evaluated_) evaluate(system, configurations(system));
+  if (!evaluated_) settle(system);
   unload(system);
-  system.record.friction = 0.0;
   for (const Touch& t : touches_) {
-    const BodyPair& pair = pairs_[t.pair];
-    const Particles &pa = system.bodies[pair.a].particles, &pb = system.bodies[pair.b].particles;
-    const std::size_t ia = place_[pair.a][t.carrier_a], ib = place_[pair.b][t.carrier_b];
-    const double ma = pa.mass[ia], mb = pb.mass[ib];
-    const bool patches = t.patch_a != none;
-    const Vector va = patches ? velocity_[t.patch_a] : Vector{pa.velocity[0][ia], pa.velocity[1][ia]},
-                 vb = patches ? velocity_[t.patch_b] : Vector{pb.velocity[0][ib], pb.velocity[1][ib]};
-    const auto size_of = [&](double speed) {  // it never turns sliding round within the step
-      const double stopping = t.force.overlap * ma * mb / (ma + mb) * speed / (2.0 * duration);
-      return std::min(pair.friction * t.force.pressure, stopping) * std::min(1.0, speed / slip_speed_);
-    };
-    double power = 0.0;
-    const Vector friction = rub(t, difference(vb, va), size_of, power);
-    push(system, t, friction);
-    ContactHistory& history = history_[t.pair];
-    for (std::size_t c = 0; c < 2; ++c) history.impulse[c] -= duration * (t.force.force[c] + friction[c]);
-    history.friction_work += duration * power, system.record.friction += duration * power;
+    push(system, t);
+    const Vector friction = friction_on_b(t);
+    for (std::size_t c = 0; c < 2; ++c)
+      history_[t.key.pair].impulse[c] -= duration * (t.force.force[c] + friction[c]);
   }
   evaluated_ = false;
 }
 
-void Contact::end_step(System& system, double duration) {
-  before_.swap(placed_), mirrored_before_.swap(mirrored_);
-  evaluate(system, configurations(system));
-  note_state(system);
+void Contact::end_step(System& system) {
+  const std::vector<Configuration> bodies = configurations(system);
+  evaluate(system, bodies);
+  keep(system, bodies);
   evaluated_ = true;
-  for (std::size_t k = 0; k < patches_.size(); ++k) {
-    const double side = mirrored_[k] == mirrored_before_[k] ? 1.0 : -1.0;
-    velocity_[k] = {(placed_[k].place[0] - side * before_[k].place[0]) / duration,
-                    (placed_[k].place[1] - before_[k].place[1]) / duration};
-  }
 }
 
-bool Contact::rubs() const {
-  return std::ranges::any_of(pairs_, [](const BodyPair& pair) { return pair.friction > 0.0; });
-}
-
-/// Velocity of b's patch relative to a's.
-Vector Contact::sliding(const Touch& t, std::span<const ParticleMotion> motion) const {
-  const BodyPair& pair = pairs_[t.pair];
-  const auto velocity = [&](std::size_t body, std::size_t carrier, const Vector& arm) -> Vector {
-    const ParticleMotion& m = motion[body];
-    const std::size_t i = place_[body][carrier];
-    return {m.velocity[0][i] - m.spin[i] * arm[1], m.velocity[1][i] + m.spin[i] * arm[0]};
-  };
-  if (pair.friction == 0.0) return {};
-  const Vector arm_a{t.arm_a[0] + t.half[0], t.arm_a[1] + t.half[1]}, arm_b = difference(t.arm_b, t.half);
-  return difference(velocity(pair.b, t.carrier_b, arm_b), velocity(pair.a, t.carrier_a, arm_a));
-}
-
-void Contact::load(System& system, std::span<const ParticleMotion> motion, double* rates) const {
+void Contact::load(System& system, double* rates) const {
   unload(system);
   std::fill(rates, rates + rates_of_pair * pairs_.size(), 0.0);
   for (const Touch& t : touches_) {
-    const auto size_of = [&](double speed) {
-      return pairs_[t.pair].friction * t.force.pressure * speed / std::hypot(speed, slip_speed_);
-    };
-    double power = 0.0;
-    const Vector friction = rub(t, sliding(t, motion), size_of, power);
-    push(system, t, friction);
-    double* of_pair = rates + rates_of_pair * t.pair;
-    for (std::size_t c = 0; c < 2; ++c) of_pair[c] -= t.force.force[c] + friction[c];
-    of_pair[2] += power;
+    push(system, t);
+    const Vector friction = friction_on_b(t);
+    for (std::size_t c = 0; c < 2; ++c)
+      rates[rates_of_pair * t.key.pair + c] -= t.force.force[c] + friction[c];
   }
 }
 
-/// Derivative of the size of friction to the speed of sliding, N s/m.
-double Contact::damping(const Touch& t, std::span<const ParticleMotion> motion) const {
-  const Vector along{-t.force.normal[1], t.force.normal[0]};
-  const double relative = std::hypot(dot(sliding(t, motion), along) / slip_speed_, 1.0);
-  return pairs_[t.pair].friction * t.force.pressure / (slip_speed_ * relative * relative * relative);
-}
-
-void Contact::commit(System& system, const double* changes) {
-  note_state(system);
-  system.record.friction = 0.0;
+void Contact::commit(System& system, std::span<const Configuration> bodies, const double* changes) {
+  keep(system, bodies);
   for (ContactHistory& history : history_) {
     history.impulse[0] += changes[0], history.impulse[1] += changes[1];
-    history.friction_work += changes[2], system.record.friction += changes[2];
     changes += rates_of_pair;
   }
 }
 
+namespace {
+constexpr std::size_t numbers_of_pair = 4, numbers_of_grip = 7;
+}
+
 std::vector<double> Contact::state() const {
   std::vector<double> values;
-  for (const Vector& v : velocity_) values.insert(values.end(), v.begin(), v.end());
   for (const ContactHistory& h : history_)
     values.insert(values.end(), {h.impulse[0], h.impulse[1], h.friction_work, h.least_gap});
+  for (const auto& [key, spring, apart, turn_a, turn_b, side_a, side_b] : grips_) {
+    for (const std::uint32_t part : {key.pair, key.patch_a, key.patch_b, key.carrier_a, key.carrier_b})
+      values.push_back(static_cast<double>(part));
+    values.insert(values.end(), {spring.force, spring.stiffness});
+  }
   return values;
 }
 
-bool Contact::restore(std::span<const double> state) {
-  if (state.size() != 2 * velocity_.size() + 4 * history_.size()) return false;
+bool Contact::restore(const System& system, std::span<const double> state) {
+  const std::size_t of_pairs = numbers_of_pair * pairs_.size();
+  if (state.size() < of_pairs || (state.size() - of_pairs) % numbers_of_grip != 0) return false;
   const double* next = state.data();
-  for (Vector& v : velocity_) v = {next[0], next[1]}, next += 2;
-  found_ = evaluated_ = false;
-  for (ContactHistory& h : history_) h = {{next[0], next[1]}, next[2], next[3]}, next += 4;
+  for (ContactHistory& h : history_) h = {{next[0], next[1]}, next[2], next[3]}, next += numbers_of_pair;
+  grips_.clear();
+  for (; next != state.data() + state.size(); next += numbers_of_grip) {
+    const auto number = [&](std::size_t k) { return static_cast<std::uint32_t>(next[k]); };
+    const TouchKey key{number(0), number(1), number(2), number(3), number(4)};
+    if (key.pair >= pairs_.size() || key.carrier_a >= place_[pairs_[key.pair].a].size() ||
+        key.carrier_b >= place_[pairs_[key.pair].b].size())
+      return false;
+    grips_.push_back({key, {next[5], next[6]}, {}, 0.0, 0.0, 0.0, 0.0});
+  }
+  found_ = false;
+  settle(system);
+  evaluated_ = true;
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "mpm/contact/grip.hpp"
 #include "mpm/contact/pair_law.hpp"
 #include "mpm/contact/pairs.hpp"
 #include "mpm/system.hpp"
@@ -13,7 +14,7 @@ namespace vitrum::mpm {
 struct BodyPair {
   std::size_t a, b;  ///< a < b
   PairStiffness law;
-  double friction;  ///< Coulomb's coefficient; infinite: they stick
+  double friction;  ///< Coulomb's coefficient; infinite: they stick where they are pressed together
   bool may_break;   ///< cracks may open faces that no patch stands for
 };
 
@@ -24,12 +25,6 @@ struct Configuration {
 };
 std::vector<Configuration> configurations(const System& system);
 
-/// Velocities of a body's particles as the grid moves them, by place, and their spin.
-struct ParticleMotion {
-  std::array<const double*, 2> velocity;  ///< m/s
-  const double* spin;                     ///< rad/s
-};
-
 /// What has passed between two bodies since the start.
 struct ContactHistory {
   Vector impulse{};                                            ///< N s, on a (per radian or per metre)
@@ -38,77 +33,90 @@ struct ContactHistory {
 };
 
 /// Bodies with velocity fields of their own (Body::field), which touch where patches of their surfaces do: a
-/// penalty, whose energy is stored, and Coulomb's friction. Forces act on the particles that carry the
-/// patches (Particles::contact_force), so that every integrator of particles and nodes takes them as it takes
-/// stress.
+/// penalty and, along the surface, a spring that Coulomb's bound lets slide. Forces act on the particles that
+/// carry the patches (Particles::contact_force), so that every integrator of particles and nodes takes them
+/// as it takes stress; and as a stress is, they are a function of the state kept last and the state tried.
 class Contact {
  public:
-  /// patches: by body. slip_speed: m/s, at which friction has its full size.
-  Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches,
-          double slip_speed);
+  /// patches: by body.
+  Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches);
 
   /// Before an explicit step of `duration` seconds: gives particles the forces of contact at their present
-  /// places, books friction and impulses.
+  /// places, books impulses.
   void begin_step(System& system, double duration);
-  /// After it, particles having moved: the energy stored now goes to the record, and how patches have moved
-  /// is what friction acts against next.
-  void end_step(System& system, double duration);
+  /// After it, particles having moved: keeps the state they have come to.
+  void end_step(System& system);
 
   /// For integrators that try states out. Places patches and computes their forces; whether some touch.
   bool evaluate(const System& system, std::span<const Configuration> bodies);
-  /// Gives particles the forces of the state evaluated, until `unload`. motion: by body. rates: for every
-  /// pair of bodies the force on a (2) and the power of friction, a Lipschitz function of the state.
-  void load(System& system, std::span<const ParticleMotion> motion, double* rates) const;
+  /// Gives particles the forces of the state evaluated, until `unload`. rates: for every pair of bodies the
+  /// force on a (2).
+  void load(System& system, double* rates) const;
   static void unload(System& system);
-  /// Whether there is friction at all: else nobody asks for motions.
-  bool rubs() const;
   /// For Newton's iterations over nodes: the carriers of all patches that may touch once none has moved by
   /// more than `margin` (m) from the state evaluated.
   std::vector<CarrierPair> foresee(double margin);
-  /// Calls add(carriers, normal, N/m, along, N s/m) for all that touch: stiffness along the normal, damping
-  /// by friction along the surface.
+  /// Calls add(carriers, force, stretch, N/m) for all that touch: how a force along one direction changes
+  /// with what the carriers are moved apart along another one. Along the normal; along the surface where it
+  /// sticks; and where it slides, friction with the pressure.
   template <class Add>
-  void linearise(std::span<const ParticleMotion> motion, Add&& add) const {
+  void linearise(Add&& add) const {
     for (const Touch& t : touches_) {
       const Vector along{-t.force.normal[1], t.force.normal[0]};
-      add(carriers_of(t.pair, t.carrier_a, t.carrier_b), t.force.normal, t.force.stiffness, along,
-          damping(t, motion));
+      const CarrierPair carriers = carriers_of(t.key.pair, t.key.carrier_a, t.key.carrier_b);
+      add(carriers, t.force.normal, t.force.normal, t.force.stiffness);
+      const double pull = t.friction.spring.force, friction = pairs_[t.key.pair].friction;
+      if (!t.friction.slides)
+        add(carriers, along, along, t.friction.spring.stiffness);
+      else if (pull != 0.0)
+        add(carriers, along, t.force.normal, std::copysign(friction * t.force.stiffness, pull));
     }
   }
-  /// Makes what the rates have come to since the last time the system's; the state evaluated is the present.
-  void commit(System& system, const double* changes);
-  static constexpr std::size_t rates_of_pair = 3;
+  /// Makes the state evaluated, which is the present one, the system's, and what the rates have come to since
+  /// the last time.
+  void commit(System& system, std::span<const Configuration> bodies, const double* changes);
+  /// Particles have been put where they are: what they stood like before is as they stand now, and no
+  /// friction comes of the difference.
+  void settle(const System& system);
+  static constexpr std::size_t rates_of_pair = 2;
 
   std::span<const BodyPair> pairs() const { return pairs_; }
   std::span<const ContactHistory> history() const { return history_; }
+  /// Bound of what a pair of bodies adds to the squares of frequencies while it touches, 1/s^2: k (s_a +
+  /// s_b), s the surface that is carried by a particle over its mass (docs/theory.md 2.7).
+  double frequency_squared(std::size_t pair) const { return frequencies_squared_[pair]; }
+  /// Least distance of opposite places of a pair's surfaces in the state evaluated, m; infinite: none are
+  /// near.
+  double gap(std::size_t pair) const { return gaps_[pair]; }
 
   /// What a run must know to go on: by name.
   std::vector<double> state() const;
   /// Takes up again what `state` said, particles having been restored. False: it is not this scene's.
-  bool restore(std::span<const double> state);
+  bool restore(const System& system, std::span<const double> state);
 
  private:
-  static constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
   struct Touch {
-    std::size_t pair;                    ///< of bodies
-    std::uint32_t carrier_a, carrier_b;  ///< identities of the particles
-    std::uint32_t patch_a, patch_b;      ///< counted over all bodies; none: the particles themselves touch
-    Vector arm_a, arm_b;                 ///< m, from the particles to their patches
-    Vector half;  ///< m, from a's patch to the middle between both, where friction acts
+    TouchKey key;
+    Vector arm_a, arm_b;  ///< m, from the particles to their patches
+    Vector half;          ///< m, from a's patch to the middle between both, where friction acts
     PairForce force;
+    Stretched friction{};
   };
   void find_deep_particles(const System& system);
+  void find_frequencies(const System& system, std::size_t body, std::vector<double>& per_mass) const;
   void find_carriers(const System& system);
   void place_patches(const System& system, std::span<const Configuration> bodies);
   void find_touches(const System& system, std::span<const Configuration> bodies);
   void find_touches_of_particles(const System& system, std::span<const Configuration> bodies,
                                  std::size_t pair);
-  void note_state(System& system);
-  template <class Size>
-  Vector rub(const Touch& touch, const Vector& sliding, const Size& size_of, double& power) const;
-  void push(System& system, const Touch& touch, const Vector& friction) const;
-  Vector sliding(const Touch& touch, std::span<const ParticleMotion> motion) const;
-  double damping(const Touch& touch, std::span<const ParticleMotion> motion) const;
+  void touch(std::span<const Configuration> bodies, Touch&& touch);
+  Grip grip_of(const TouchKey& key, const Spring& spring, std::span<const Configuration> bodies) const;
+  double way(const Touch& touch, const Grip& before, const Grip& now) const;
+  void keep(System& system, std::span<const Configuration> bodies);
+  void push(System& system, const Touch& touch) const;
+  static Vector friction_on_b(const Touch& t) {
+    return {-t.force.normal[1] * t.friction.spring.force, t.force.normal[0] * t.friction.spring.force};
+  }
   CarrierPair carriers_of(std::size_t pair, std::uint32_t a, std::uint32_t b) const {
     return {pairs_[pair].a, place_[pairs_[pair].a][a], pairs_[pair].b, place_[pairs_[pair].b][b]};
   }
@@ -121,8 +129,8 @@ class Contact {
   double reach(const BodyPair& pair) const;
 
   std::vector<BodyPair> pairs_;
-  std::vector<ContactHistory> history_;  // by pair
-  double slip_speed_;
+  std::vector<ContactHistory> history_;            // by pair
+  std::vector<double> frequencies_squared_;        // by pair
   std::vector<Patch> patches_;                     // of all bodies
   std::vector<std::size_t> first_;                 // of each body's patches, and their number
   std::vector<std::vector<std::uint32_t>> place_;  // by body and identity: in the columns
@@ -130,13 +138,12 @@ class Contact {
   std::size_t sorted_ = 0;                         // Grid::times_sorted when carriers were found
   bool found_ = false;                             // carriers are
   bool evaluated_ = false;                         // touches are those of the particles' present places
-  std::vector<PlacedPatch> placed_, before_;
+  std::vector<PlacedPatch> placed_;
   std::vector<Vector> places_;                        // of patches
   std::vector<std::vector<Vector>> particle_places_;  // by body and identity, where cracks may open
-  std::vector<double> mirrored_, mirrored_before_;
-  std::vector<Vector> velocity_;  // m/s, by patch, in the last step
-  std::vector<Touch> touches_;
-  std::vector<double> gaps_;  // m, least, by pair
+  std::vector<Touch> touches_;                        // by rising key
+  std::vector<Grip> grips_, next_grips_;              // of the state kept last, by rising key
+  std::vector<double> gaps_;                          // m, least, by pair
   PairSearch search_;
 };
 

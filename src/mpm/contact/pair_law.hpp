@@ -20,7 +20,8 @@ struct PairForce {
   double couple_a = 0.0;  ///< N m, counter-clockwise, beyond that of the force at the patch's middle
   double couple_b = 0.0;
   double stiffness = 0.0;  ///< N/m, d2U/dg2 where it is positive
-  double pressure = 0.0;   ///< N, of the force along the normal, >= 0: what friction is in proportion to
+  double pressure = 0.0;   ///< N, of the force along the normal, >= 0: what bounds friction
+  double grip = 0.0;       ///< N/m, of the spring along the surface
   Vector normal{};         ///< from a to b
   double gap = 0.0;        ///< m, negative: penetration
   double overlap = 0.0;    ///< share of the patches that lies opposite each other, 0 to 1
@@ -51,7 +52,7 @@ struct Barrier {
   }
 };
 
-/// U = k A S W u(g) of two patches (docs/theory.md 2.3): n bisects n_a and -n_b, g = (x_b - x_a).n is the
+/// U = k A S W u(g) of two patches (docs/theory.md 2.7): n bisects n_a and -n_b, g = (x_b - x_a).n is the
 /// gap, t the offset along the surface, W = hat(|t| / longer length) the overlap, S the facing (1 where the
 /// normals are within 53 degrees of opposite), A = (shorter length) x (smaller ring), u = depth^2 barrier(-g
 /// / depth).
@@ -86,7 +87,8 @@ inline PairForce pair_force(const PlacedPatch& a, const PlacedPatch& b, const Pa
   for (std::size_t c = 0; c < 2; ++c) f.force[c] = -(by_gap * n[c] + by_offset * along[c]);
   f.couple_a = -(by_facing + by_turn), f.couple_b = by_facing - by_turn;
   f.pressure = std::max(0.0, -by_gap);
-  f.stiffness = std::max(0.0, law.stiffness * area * facing * overlap.value * barrier.curvature);
+  f.grip = law.stiffness * area * facing * overlap.value;
+  f.stiffness = std::max(0.0, f.grip * barrier.curvature);
   return f;
 }
 
@@ -102,7 +104,8 @@ inline PairForce pair_force(const Vector& a, const Vector& b, double distance, d
   const Barrier barrier(-f.gap / law.depth);
   f.energy = law.stiffness * area * law.depth * law.depth * barrier.value;
   f.pressure = std::max(0.0, law.stiffness * area * law.depth * barrier.slope);
-  f.stiffness = std::max(0.0, law.stiffness * area * barrier.curvature);
+  f.grip = law.stiffness * area;
+  f.stiffness = std::max(0.0, f.grip * barrier.curvature);
   for (std::size_t c = 0; c < 2; ++c)
     f.force[c] = law.stiffness * area * law.depth * barrier.slope * f.normal[c];
   return f;

@@ -123,6 +123,52 @@ TEST_CASE("Without stress the stiffness is the derivative of the forces", "[inte
     }
 }
 
+TEST_CASE("The stiffness of contact is the derivative of its forces: pressed, sticking, sliding",
+          "[integrators][contact]") {
+  for (const char* friction : {"0", "0.3", "inf"})
+    for (const double drawn : {0.0, 1.0}) {
+      CAPTURE(friction, drawn);
+      MpmScene scene;
+      scene.shape = "gimp";
+      scene.tables = fmt::format("[contact]\nmethod = \"bodies\"\nfriction = {}\n", friction) +
+                     body("low", box({0.0, 0.0}, {6.0, 2.0}), "particles_per_cell = 4") +
+                     body("high", box({1.0, 2.0}, {5.0, 4.0}),
+                          "particles_per_cell = 4\nvelocity = " + pair({drawn, -0.5}));
+      MpmRun run(scene);
+      GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
+      grid.begin_phase();
+      const std::size_t n = (grid.size() - mpm::Contact::rates_of_pair) / 2;
+      std::vector<double> y(grid.size() + grid.integrals()), x(n), Kx(n), b(grid.size(), 0.0);
+      grid.start(y.data());
+      // Springs know from where on they stretch once they have been pressed together.
+      for (std::size_t k = 0; k < n; ++k) y[k] = 0.01 * y[n + k];
+      grid.commit(0.05, y.data());
+      for (std::size_t k = 0; k < n; ++k) y[k] *= 2.0;
+      REQUIRE(grid.linearise(0.1, y.data()));
+      Random random(23);
+      for (std::size_t k = 0; k < n; ++k) b[k] = x[k] = random.uniform(-1.0, 1.0);
+      grid.reduce(1.0, b.data(), Kx.data());
+      constexpr double h = 1e-7;
+      auto plus = y, minus = y;
+      for (std::size_t k = 0; k < n; ++k) plus[k] += h * x[k], minus[k] -= h * x[k];
+      const auto f_plus = rates_at(grid, 0.1, plus), f_minus = rates_at(grid, 0.1, minus);
+      CHECK(f_plus[2 * n + 1] < 0.0);  // they are pressed together
+      std::vector<double> mass(grid.pattern().row.size());
+      grid.form(0.0, mass.data());
+      double error = 0.0, norm = 0.0;
+      for (std::size_t column = 0; column < n; ++column)
+        for (auto e = static_cast<std::size_t>(grid.pattern().column[column]);
+             e < static_cast<std::size_t>(grid.pattern().column[column + 1]); ++e) {
+          if (grid.pattern().row[e] != static_cast<std::int64_t>(column)) continue;
+          const double force = mass[e] * (f_plus[n + column] - f_minus[n + column]) / (2.0 * h);
+          error += std::pow(force - Kx[column], 2), norm += force * force;
+        }
+      CAPTURE(std::sqrt(error / norm));
+      // Arms from the nodes' particles to the surface, and what turns them, are left out of K.
+      CHECK(std::sqrt(error / norm) < 0.06);
+    }
+}
+
 TEST_CASE("Right-hand sides leave the committed state alone, to the bit", "[integrators][mpm]") {
   const Scene scene = read_scene(std::string(VITRUM_SOURCE_DIR) + "/studies/paper/reference.toml",
                                  {"body.0.box.max=[0.02, 0.005]"});

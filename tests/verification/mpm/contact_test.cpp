@@ -3,39 +3,20 @@
 #include <numbers>
 
 #include "mpm/contact/contact.hpp"
-#include "support/mpm_run.hpp"
+#include "support/contact_scenes.hpp"
 #include "support/random_states.hpp"
 #include "tests/catch.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
 
-namespace {
-
-/// Glass without Poisson's effect, c = 5000 m/s, in cells of 0.5 mm with four particles each.
-MpmScene bars(double gap, double va, double vb, const std::string& scheme = "musl",
-              const std::string& contact = "") {
-  MpmScene scene;
-  scene.shape = "gimp", scene.cell = 0.5e-3, scene.scheme = scheme, scene.pace = "";
-  scene.density = 2500.0, scene.young = 62.5e9, scene.poisson = 0.0;
-  const auto moving = [](double v) { return "particles_per_cell = 4\nvelocity = " + pair({v, 0.0}); };
-  scene.tables = "[contact]\nmethod = \"bodies\"\n" + contact +
-                 body("a", box({-0.025, 0.0}, {0.0, 0.001}), moving(va)) +
-                 body("b", box({gap, 0.0}, {0.025 + gap, 0.001}), moving(vb));
-  return scene;
-}
-
-double mean_velocity(MpmRun& run, std::size_t body, std::size_t component = 0) {
-  return mass_mean(run.particles(body), run.particles(body).velocity[component]);
-}
-
-}  // namespace
-
 TEST_CASE("Two bars touch when they meet, part after the wave has run through them, and exchange velocities",
           "[contact]") {
   for (const char* scheme : {"usf", "musl"}) {
     CAPTURE(scheme);
-    MpmRun run(bars(2e-3, 7.0, -93.0, scheme));
+    MpmScene scene = bars(2e-3, 7.0, -93.0);
+    scene.scheme = scheme;
+    MpmRun run(scene);
     double first = 0.0, last = 0.0;
     run.watch = [&](double step) {
       if (run.system.record.contact > 0.0) {
@@ -130,7 +111,9 @@ TEST_CASE(
       const double drift = random.uniform(-speed, speed),
                    gap = random.uniform(0.0, std::min(1e-3, speed * 5e-6));
       CAPTURE(speed, drift, gap);
-      MpmRun run(bars(gap, drift + speed, drift, n % 2 == 0 ? "musl" : "usf"));
+      MpmScene scene = bars(gap, drift + speed, drift);
+      scene.scheme = n % 2 == 0 ? "musl" : "usf";
+      MpmRun run(scene);
       run.advance(gap / speed + 20e-6);
       const double e = (mean_velocity(run, 1) - mean_velocity(run, 0)) / speed;
       least = std::min(least, e), greatest = std::max(greatest, e);
@@ -232,12 +215,11 @@ TEST_CASE("A cylinder on a slope rolls with about two thirds of the acceleration
     CAPTURE(rolls);
     MpmScene scene;
     scene.shape = "gimp", scene.scheme = "musl", scene.pace = "";
-    scene.tables =
-        fmt::format("[contact]\nmethod = \"bodies\"\nslip_speed = 1e-4\nfriction = {}\n", rolls ? 0.5 : 0.0) +
-        body("ground", box({-8.0, -4.0}, {24.0, 0.0}), "particles_per_cell = 4") +
-        body("cylinder", disk({0.0, radius}, radius), "particles_per_cell = 4") +
-        hold("[-inf, -inf]", "[inf, -1.0]", "\"x\", \"y\"") +
-        fmt::format("[gravity]\nacceleration = [{}, {}]\n", g * slope, -g);
+    scene.tables = fmt::format("[contact]\nmethod = \"bodies\"\nfriction = {}\n", rolls ? 0.5 : 0.0) +
+                   body("ground", box({-8.0, -4.0}, {24.0, 0.0}), "particles_per_cell = 4") +
+                   body("cylinder", disk({0.0, radius}, radius), "particles_per_cell = 4") +
+                   hold("[-inf, -inf]", "[inf, -1.0]", "\"x\", \"y\"") +
+                   fmt::format("[gravity]\nacceleration = [{}, {}]\n", g * slope, -g);
     MpmRun run(scene);
     run.advance(duration);
     const double v = mean_velocity(run, 1), free = g * slope * duration;
