@@ -37,10 +37,13 @@ JohnsonCook::JohnsonCook(const ElasticParameters& elastic, const Parameters& par
       kelvin_per_work_(parameters.heat_fraction / (elastic.density * parameters.heat_capacity)) {}
 
 std::optional<Contradiction> JohnsonCook::contradiction(const ElasticParameters&, const Parameters& p) {
-  if (p.melting_temperature > p.reference_temperature) return std::nullopt;
-  return Contradiction{
-      "melting_temperature",
-      "more than reference_temperature (" + std::to_string(std::lround(p.reference_temperature)) + " K)"};
+  const auto kelvin = [](double T) { return " (" + std::to_string(std::lround(T)) + " K)"; };
+  if (!(p.melting_temperature > p.reference_temperature))
+    return Contradiction{"melting_temperature",
+                         "more than reference_temperature" + kelvin(p.reference_temperature)};
+  if (!(p.temperature < p.melting_temperature))
+    return Contradiction{"temperature", "less than melting_temperature" + kelvin(p.melting_temperature)};
+  return std::nullopt;
 }
 
 std::vector<Variable> JohnsonCook::all_variables() {
@@ -100,7 +103,8 @@ void JohnsonCook::advance(State& s, const SymmetricTensor& strain, double durati
   const double flow = rising_root(0.0, most, strength_in_excess), dissipated = work(flow);
   const SymmetricTensor direction = (1.0 / trial) * deviator(s.elastic_strain);
   s.elastic_strain -= 3.0 * G * flow * direction;
-  if (s.plastic_strain == 0.0) {
+  constexpr double on_surface = 1e-9;
+  if (s.plastic_strain == 0.0 || start < (1.0 - on_surface) * slow) {
     const double at = std::clamp((slow - start) / (trial - start), 0.0, 1.0);
     report.record(EventKind::yield, at, elastic_.stress(before + at * strain));
   }

@@ -54,7 +54,7 @@ std::optional<Contradiction> JohnsonHolmquist::contradiction(const ElasticParame
                turns = p.K3 > 0.0 ? std::clamp(-p.K2 / (3.0 * p.K3), 0.0, most) : most;
   for (const double mu : {turns, most})
     if (!(K1 + mu * (2.0 * p.K2 + mu * 3.0 * p.K3) > 0.0))
-      return Contradiction{p.K2 < 0.0 ? "K2" : "K3",
+      return Contradiction{2.0 * p.K2 < 3.0 * p.K3 * mu ? "K2" : "K3",
                            "constants with which the pressure rises with compression, up to mu = 1"};
   return std::nullopt;
 }
@@ -191,14 +191,19 @@ JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rat
   return f;
 }
 
-void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double duration,
-                               PointReport& report) const {
-  const bool was_whole = s.damage == 0.0;
-  respond(s, strain, duration, report);
-  if (was_whole && s.damage > 0.0) report.record(EventKind::damage, 1.0, stress(s));
+namespace {
+
+/// Inside the surface by more than this of the strength: an entry into flow, not its continuation.
+constexpr double tolerance_of_surface = 1e-9;
+
+/// Fraction of an increment at which something that is linear in it reaches zero from below.
+double reaches_zero(double start, double end) {
+  return start >= 0.0 ? 0.0 : std::clamp(start / (start - end), 0.0, 1.0);
 }
 
-void JohnsonHolmquist::respond(State& s, const SymmetricTensor& strain, double duration,
+}  // namespace
+
+void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double duration,
                                PointReport& report) const {
   // Stresses are those of the reference volume, as the elastic strain gives them.
   const SymmetricTensor d = deviator(strain);
@@ -207,24 +212,35 @@ void JohnsonHolmquist::respond(State& s, const SymmetricTensor& strain, double d
     return volume_ratio(at.elastic_strain) * strength(pressure(at), rate).at(at.damage);
   };
   const State start = s;
+  const auto stress_at = [&](double fraction) {
+    State at = start;
+    at.elastic_strain += fraction * strain;
+    return stress(at);
+  };
   s.elastic_strain += strain;
   const double unlimited = unlimited_pressure(s);
-  if (fails_in_tension(s, unlimited))
-    open_in_tension(s, std::min(-unlimited, parameters_.T * (1.0 - s.damage)), report);
+  if (fails_in_tension(s, unlimited)) {
+    // At the limit, unless the tension was beyond it to begin with.
+    const double before = -unlimited_pressure(start), limit = parameters_.T * (1.0 - s.damage);
+    const double at = reaches_zero(before - limit, -unlimited - limit);
+    if (start.damage == 0.0) report.record(EventKind::damage, at, stress_at(at));
+    open_in_tension(s, std::min(-unlimited, std::max(before, limit)), report);
+  }
   if (duration == 0.0 && parameters_.C > 0.0) return;  // at an infinite rate nothing flows
   const double trial = equivalent_stress(s.elastic_strain), bears = borne(s);
   if (!(trial > bears)) return;
 
   // The flow begins where stress and strength meet, both taken as linear over the increment.
   const double start_stress = equivalent_stress(start.elastic_strain), start_bears = borne(start),
-               outside = start_stress - start_bears;
-  const double began = outside >= 0.0
-                           ? start_stress
-                           : start_bears + outside / (outside - trial + bears) * (bears - start_bears);
-  const bool was_whole = s.damage < 1.0;
+               outside = start_stress - start_bears, flows_from = reaches_zero(outside, trial - bears);
+  const double began = outside >= 0.0 ? start_stress : start_bears + flows_from * (bears - start_bears);
+  if (outside < -tolerance_of_surface * start_bears)
+    report.record(EventKind::yield, flows_from, stress_at(flows_from));
+  const bool was_whole = s.damage == 0.0, was_intact = s.damage < 1.0;
   Flow f = flow(s, trial, rate);
+  if (was_whole && s.damage > 0.0) report.record(EventKind::damage, flows_from, stress_at(flows_from));
   report.dissipation.plastic += std::max(0.5 * (began + f.stress) * f.plastic_strain - f.bulked, 0.0);
-  if (was_whole && unlimited < 0.0 && (s.damage >= 1.0 || fails_in_tension(s, unlimited))) {
+  if (was_intact && unlimited < 0.0 && (s.damage >= 1.0 || fails_in_tension(s, unlimited))) {
     open_in_tension(s, -unlimited, report);
     report.dissipation.plastic += f.stress * f.stress / (6.0 * elastic_.shear);
     f.stress = 0.0;

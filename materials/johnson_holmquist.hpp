@@ -74,7 +74,6 @@ class JohnsonHolmquist {
   double equation_of_state(double mu) const;
   double unlimited_pressure(const State& state) const;
   double equivalent_stress(const SymmetricTensor& elastic_strain) const;
-  void respond(State& state, const SymmetricTensor& strain, double duration, PointReport& report) const;
   struct Flow {
     double plastic_strain = 0.0;  ///< equivalent
     double stress = 0.0;          ///< equivalent, of the reference volume, at the end

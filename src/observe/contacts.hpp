@@ -16,7 +16,7 @@ class ContactHistories final : public Observer {
        "the ring",
        true},
       {"impulse_z", "N s", "the same along the axis (`_r`, `_z`: x, y in plane strain)", true},
-      {"friction_work", "J", "dissipated between them since the start"},
+      {"friction_work", "J", "dissipated between them since the start", true},
       {"least_gap", "m",
        "least distance of opposite places of their surfaces so far; negative: penetration; inf: none yet"}};
   static constexpr TableInfo table_info{

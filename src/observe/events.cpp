@@ -1,6 +1,7 @@
 #include "observe/events.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace vitrum {
 namespace {
@@ -26,13 +27,19 @@ EventLog::EventLog(const std::array<bool, event_kinds>& kinds, bool axisymmetric
 }
 
 void EventLog::step(const System& system, double duration) {
-  for (const BodyEvent& e : system.record.events) {
-    if (!kinds_[static_cast<std::size_t>(e.event.kind)]) continue;
-    const Body& body = system.bodies[e.body];
-    const Particles& p = body.particles;
-    table_.row(system.time - duration * (1.0 - e.event.fraction), body.name, p.identity[e.particle],
-               event_name(e.event.kind), p.position[0][e.particle], p.position[1][e.particle],
-               e.event.stress);
+  // Fractions that differ may be one time: then by body and particle.
+  told_.clear();
+  for (const BodyEvent& e : system.record.events)
+    if (kinds_[static_cast<std::size_t>(e.event.kind)])
+      told_.push_back({system.time - duration * (1.0 - e.event.fraction),
+                       system.bodies[e.body].particles.identity[e.particle], &e});
+  std::ranges::stable_sort(told_, {},
+                           [](const Told& t) { return std::tuple(t.time, t.event->body, t.identity); });
+  for (const auto& [time, identity, e] : told_) {
+    const Body& body = system.bodies[e->body];
+    const std::array<std::vector<double>, 2>& position = body.particles.position;
+    table_.row(time, body.name, identity, event_name(e->event.kind), position[0][e->particle],
+               position[1][e->particle], e->event.stress);
   }
 }
 

@@ -18,10 +18,14 @@ class EventLog final : public Observer {
                                        {"r", "m", "place of the particle (`x` in plane strain)"},
                                        {"z", "m", "(`y` in plane strain)"},
                                        {"value", "Pa",
-                                        "largest principal stress that the event left; at `localisation` the "
-                                        "strength"}};
-  static constexpr TableInfo table_info{"events", "every event of the local equations, in order of time",
-                                        columns};
+                                        "largest principal stress then, hoop direction included; after the "
+                                        "jump of an event that is one"}};
+  static constexpr TableInfo table_info{
+      "events",
+      "every event of the local equations, in order of time, body and particle. A point at the edge of two "
+      "modes may yield or close many times in next to no time, and does so differently under each local "
+      "method",
+      columns};
   static std::unique_ptr<Observer> make(const Scene& scene, const System& system);
 
   /// kinds: by EventKind, whether it is told.
@@ -31,7 +35,15 @@ class EventLog final : public Observer {
   Table* table() override { return &table_; }
 
  private:
+  /// An event with its time, and the number of its particle in its body.
+  struct Told {
+    double time;
+    std::uint32_t identity;
+    const BodyEvent* event;
+  };
+
   std::array<bool, event_kinds> kinds_;
+  std::vector<Told> told_;                        ///< of a step
   std::array<Column, std::size(columns)> named_;  ///< by the scene's geometry
   Table table_;
 };

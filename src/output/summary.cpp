@@ -144,8 +144,8 @@ Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments)
                 {"centre", pair(body.motion.centre)},
                 {"kinetic", number(body.motion.kinetic)}};
   add_measures(block, body.failure);
-  block["fragments"] = std::count_if(fragments.begin(), fragments.end(),
-                                     [&](const Fragment& f) { return f.body == body.name; });
+  const auto pieces = std::ranges::count(fragments, body.name, &Fragment::body);
+  block["fragments"] = body.failure.separated > 0 ? pieces : 1;
   return block;
 }
 

@@ -18,7 +18,7 @@ void check_probes(const TableView& document, const Scene& scene) {
                                  return other.name == probe.name;
                                }) != before)
       table.fail("name", "a name that no other probe has");
-    if (table.sound("body") && std::ranges::find(bodies, probe.body) == bodies.end())
+    if (!bodies.empty() && table.sound("body") && std::ranges::find(bodies, probe.body) == bodies.end())
       table.fail("body",
                  with_suggestion("the name of a body: " + schema::quoted_list(bodies), probe.body, bodies));
   }

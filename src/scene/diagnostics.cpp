@@ -16,6 +16,17 @@ bool is_at_or_below(std::string_view path, std::string_view ancestor) {
   return path.starts_with(ancestor) && (path.size() == ancestor.size() || path[ancestor.size()] == '.');
 }
 
+/// Of what has been noted, the entry of `path` or of its nearest ancestor: the latest word on it.
+template <class Notes>
+auto nearest(const Notes& notes, std::string_view path) {
+  auto found = notes.end();
+  for (auto entry = notes.begin(); entry != notes.end(); ++entry)
+    if (is_at_or_below(path, entry->first) &&
+        (found == notes.end() || entry->first.size() >= found->first.size()))
+      found = entry;
+  return found;
+}
+
 std::string sentence(std::string_view key, std::string_view fact) {
   return single_line(key.empty() ? std::string(fact) : fmt::format("key '{}': {}", key, fact));
 }
@@ -48,22 +59,17 @@ void Diagnostics::note_removal(const std::string& path, std::size_t index) {
 }
 
 std::size_t Diagnostics::override_at(std::string_view path) const {
-  // The longest noted ancestor decides: it is the latest word on this path.
-  std::size_t number = 0, longest = 0;
-  for (const auto& [ancestor, candidate] : overrides_) {
-    if (ancestor.size() >= longest && is_at_or_below(path, ancestor)) {
-      number = candidate;
-      longest = ancestor.size();
-    }
-  }
-  return number;
+  const auto noted = nearest(overrides_, path);
+  return noted != overrides_.end() ? noted->second : 0;
 }
 
 /// The key that stands in the input for what is at `path`.
 Diagnostics::Origin Diagnostics::origin_of(std::string_view path, const toml::source_position& where) const {
-  const auto noted =
-      std::ranges::find_if(origins_, [&](const auto& entry) { return is_at_or_below(path, entry.first); });
-  return noted == origins_.end() ? Origin{std::string(path), where} : noted->second;
+  const auto preset = nearest(origins_, path);
+  const auto given = nearest(overrides_, path);
+  const bool overridden =
+      preset != origins_.end() && given != overrides_.end() && given->first.size() >= preset->first.size();
+  return preset == origins_.end() || overridden ? Origin{std::string(path), where} : preset->second;
 }
 
 std::string Diagnostics::place(std::string_view path, const toml::source_position& where) const {

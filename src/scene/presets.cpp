@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/scene_tables.hpp"
-#include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 #include "vitrum_presets.hpp"
 
@@ -58,20 +57,11 @@ void apply_presets(toml::table& document, Diagnostics& diagnostics) {
     const toml::node* named = material == nullptr ? nullptr : material->get("preset");
     if (named == nullptr) continue;
     const std::string path = join_path("material", name.str()), wanted = named->value_or(std::string());
+    const toml::node* preset = presets().get(wanted);
+    if (preset == nullptr) continue;  // whoever reads the table reports it
     const Diagnostics::Origin origin{join_path(path, "preset"), named->source().begin};
-    const bool is_text = named->is_string();
     material->erase("preset");
-    if (const toml::node* preset = presets().get(wanted)) {
-      fill(*material, values_of(*preset), path, origin, diagnostics);
-      continue;
-    }
-    std::vector<std::string> known;
-    for (const auto& [key, unused] : presets()) known.emplace_back(key.str());
-    diagnostics.add(origin.key, origin.where, origin.key,
-                    with_suggestion(fmt::format("found {}, expected the name of a preset (vitrum reference "
-                                                "--materials lists them)",
-                                                is_text ? toml_quoted(wanted) : "what is no text"),
-                                    wanted, known));
+    fill(*material, values_of(*preset), path, origin, diagnostics);
   }
 }
 

@@ -51,8 +51,11 @@ void check_keys(const TableView& table) {
                                          names.size() > 1 ? "one of " : "", fmt::join(names, ", "));
     table.diagnostics().add(path, key.source().begin, path, with_suggestion(fact, key.str(), names));
   }
+  // (A preset that is still there is none: it would have given what is required.)
+  const std::string& filled_by = table.schema().filled_by;
+  const bool would_be_filled = !filled_by.empty() && table.has(filled_by);
   for (const Key& key : table.schema().keys)
-    if (key.required && !table.has(key.name))
+    if (key.required && !would_be_filled && !table.has(key.name))
       table.report(key.name, fmt::format("found nothing, expected {}", expected(key)));
   for (const Alternatives& group : table.schema().alternatives) check_alternatives(table, group);
 }

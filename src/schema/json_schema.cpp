@@ -20,7 +20,8 @@ Json number_schema(const Key& key) {
 }
 
 Json integer_schema(const Key& key) {
-  if (!key.admitted.empty()) return {{"enum", key.admitted}};
+  if (!key.admitted.empty())
+    return {{"anyOf", {Json{{"enum", key.admitted}}, Json{{"type", "string"}, {"pattern", "^="}}}}};
   Json json = number_schema(key);
   json["type"][0] = "integer";
   return json;

@@ -1,5 +1,6 @@
 """Laws other than the paper's, in whole runs: every grid method, every local method, fields, points, resuming."""
 import json
+import re
 import signal
 import time
 import tomllib
@@ -93,6 +94,24 @@ class Laws(CommandLineTest):
         self.assertGreater(last["bulking"], 1e8)
         self.assertLess(last["s_zz"], -1e8)  # bulked glass in its old volume is under pressure
         self.assertIn("event damage t=", done.stderr)
+
+    def test_places_of_values_beside_a_preset(self):
+        """What --set gives is blamed on --set, what a preset gives on the preset; an unknown preset is the only fault."""
+        scene = self.folder / "scene.toml"
+        scene.write_text(re.sub(r"\[material\.glass\].*?(?=\n\[material\.steel\])", '[material.glass]\npreset = "soda-lime, paper"', impact.read_text(),
+                                flags=re.S))
+        line = scene.read_text().splitlines().index('preset = "soda-lime, paper"') + 1
+        told = self.vitrum("check", scene, "--set", "material.glass.poisson=0.45", status=2).stderr
+        self.assertRegex(told, r"^error: --set 1: key 'material\.glass\.poisson': ")
+        told = self.vitrum("check", scene, "--set", 'material.glass.preset="soda-lime, JH-2"', "--set",
+                           "material.glass.johnson_holmquist.HEL=-3", status=2).stderr
+        self.assertRegex(told, r"^error: --set 2: key 'material\.glass\.johnson_holmquist\.HEL': ")
+        told = self.vitrum("check", scene, "--set", 'material.glass.preset="soda"', status=2).stderr
+        self.assertRegex(told, r'^error: --set 1: key \'material\.glass\.preset\': found "soda", expected one of .*"soda-lime, paper"')
+        self.assertEqual(told.count("error:"), 1)
+        scene.write_text(scene.read_text().replace("soda-lime, paper", "soda-lime, papers"))
+        told = self.vitrum("check", scene, status=2).stderr
+        self.assertRegex(told, rf"^error: .*scene\.toml:{line}:\d+: key 'material\.glass\.preset': .*soda-lime, paper")
 
     def test_examples_are_valid_and_run(self):
         for scene in sorted((source / "examples").glob("*.toml")):

@@ -20,6 +20,8 @@ class Events(CommandLineTest):
         self.assertEqual(list(rows[0]), ["time", "body", "particle", "kind", "r", "z", "value"])
         times = [float(row["time"]) for row in rows]
         self.assertEqual(times, sorted(times))
+        order = [(float(row["time"]), ("plate", "cylinder").index(row["body"]), int(row["particle"])) for row in rows]
+        self.assertEqual([key for key in order if key[0] > 0.0], sorted(key for key in order if key[0] > 0.0))
         self.assertTrue(0.0 <= times[0] and times[-1] <= 20e-6)
         for kind in ("localisation", "separation"):
             first = next(row for row in rows if row["kind"] == kind)

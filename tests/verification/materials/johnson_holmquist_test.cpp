@@ -201,3 +201,47 @@ TEST_CASE("JH-2: random paths create no energy and keep damage and bulking in bo
     }
   }
 }
+
+TEST_CASE("JH-2: what an initial stress cannot keep is booked", "[material][jh2][energy]") {
+  const auto material = std::make_shared<Batch<JohnsonHolmquist>>(
+      MaterialParameters{.name = "glass", .elastic = elastic}, JohnsonHolmquist(elastic, glass(), 1e-3));
+  Random random(31);
+  for (const double tension : {0.5, 0.99, 1.01, 1.2, 7.0})
+    for (const double shear : {0.0, 0.3}) {
+      CAPTURE(tension, shear);
+      PointState s = material->start(tension * 0.15e9 * (identity() + shear * deviator(random.direction())));
+      const double given = material->stored_energy(s);
+      PointReport report;
+      material->judge(s, report);
+      CHECK(material->stored_energy(s) + report.dissipation.total() == Approx(given).epsilon(1e-9));
+      CHECK((report.dissipation.total() > 0.0) == (tension > 1.0));
+    }
+}
+
+TEST_CASE("JH-2: events stand where they happen, however long the increments", "[material][jh2][events]") {
+  const JohnsonHolmquist law(elastic, glass(), 1e-3);
+  const auto first = [&](const SymmetricTensor& strain, EventKind kind, int steps) {
+    JohnsonHolmquist::State s;
+    for (int i = 0; i < steps; ++i) {
+      PointReport report;
+      law.advance(s, (1.0 / steps) * strain, 1e-6 / steps, report);
+      for (const Event& event : report.events)
+        if (event.kind == kind) return std::pair((i + event.fraction) / steps, event.stress);
+    }
+    FAIL("no such event");
+    return std::pair(0.0, 0.0);
+  };
+  // Hydrostatic tension: at T.
+  const SymmetricTensor swelling = 0.01 * identity();
+  for (const int steps : {1, 7, 100}) {
+    const auto [at, stress] = first(swelling, EventKind::damage, steps);
+    CHECK(stress == Approx(0.15e9).epsilon(0.03));
+    CHECK(at == Approx(0.15e9 / K1 / 0.03).epsilon(0.03));
+  }
+  // Compression in one direction: yield and damage together, where the strength is met.
+  const SymmetricTensor compression{0.0, -0.15, 0.0, 0.0};
+  const double exact = first(compression, EventKind::yield, 2000).first;
+  for (const int steps : {4, 20, 100})
+    for (const EventKind kind : {EventKind::yield, EventKind::damage})
+      CHECK(first(compression, kind, steps).first == Approx(exact).epsilon(0.02 + 0.5 / (steps * steps)));
+}
