@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "integrators/grid/critical_step.hpp"
+#include "mpm/contact/contact.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -66,6 +67,19 @@ void warn_of_travel(const Scene& scene, const System& system, Warnings& list) {
         "{}: {} travels through {:.3g} cells, and linear functions make or lose energy at every crossing; "
         "\"gimp\" and \"bspline2\" do not",
         scene.at("space.shape_functions"), fastest, cells));
+}
+
+void warn_of_depth(const System& system, Warnings& list) {
+  for (std::size_t n = 0; n < system.contact->pairs().size(); ++n) {
+    const mpm::BodyPair& pair = system.contact->pairs()[n];
+    const double pressed = -system.contact->history()[n].least_gap / pair.law.depth;
+    if (pressed > 0.5)
+      list.push_back(fmt::format(
+          "contact: '{}' and '{}' were pressed by {:.2g} of the depth ({:.3g} m) at which surfaces give way: "
+          "from half of it on they bear less, and bodies may pass through each other; try a larger "
+          "contact.depth or contact.stiffness",
+          system.bodies[pair.a].name, system.bodies[pair.b].name, pressed, pair.law.depth));
+  }
 }
 
 std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters) {

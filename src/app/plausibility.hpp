@@ -14,6 +14,9 @@ void warn_of_motion(const Scene& scene, const System& system, Warnings& list);
 /// of a boundary: every crossing makes or loses energy.
 void warn_of_travel(const Scene& scene, const System& system, Warnings& list);
 
+/// What the end of a run with contact tells: surfaces that were pressed further than they bear.
+void warn_of_depth(const System& system, Warnings& list);
+
 /// What the end of an adaptive run tells: hardly a step was as long as its tolerance allowed.
 std::optional<std::string> idle_tolerance(const Scene& scene, const IntegratorCounters& counters);
 

@@ -96,6 +96,7 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
                           "longer remap, if it is given), fewer outputs (each ends a phase), more "
                           "particles a cell, or integrator.method = \"arkode-explicit\""
                         : integrator_->advice(system_, state_.last_step)));
+  if (system_.contact) warn_of_depth(system_, list);
   if (const auto idle = idle_tolerance(scene_, s.integrator)) list.push_back(scene::single_line(*idle));
   return list;
 }

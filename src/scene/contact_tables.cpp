@@ -42,7 +42,8 @@ const Table& contact_table() {
         &C::depth,
         "cells",
         {0.0, 2.0, true, false},
-        "bodies: penetration at which a surface gives way; the largest pressure is at half of it"},
+        "bodies: penetration at which a surface gives way; the largest pressure is at half of it; absent: "
+        "0.5, or what bears twice the pressure of the impact, if that is more"},
        {"pair", &C::pairs, pair_table(), "overrides for two bodies"}});
   return table;
 }

@@ -97,7 +97,7 @@ struct ContactDefinition {
   ContactMethod method = ContactMethod::single;
   double friction = 0.0;   ///< may be infinite
   double stiffness = 1.0;  ///< of the two materials over a cell
-  double depth = 0.5;      ///< cells
+  std::optional<double> depth;  ///< cells; none: from the speeds at which bodies meet
   std::vector<ContactPair> pairs;
 };
 

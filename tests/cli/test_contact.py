@@ -96,6 +96,20 @@ class Contact(CommandLineTest):
         self.assertAlmostEqual(rubbed["b"] / work[0.1], 1.0, places=9)
         self.assertEqual(compared["contacts.0.least_gap"]["unit"], "m")
 
+    def test_fast_bodies_do_not_pass_through_each_other(self):
+        """Glass on glass at 0.44 of the speed of waves: the shallow depth that suits slow contact bears less than the impact, and says so."""
+        def speeds(name, *more):
+            summary = read_summary(self.run_scene(name, *more, scene=here / "scenes" / "fast.toml"))
+            return [summary["bodies"][body]["momentum"][1] / summary["bodies"][body]["mass"] for body in "ab"], summary["warnings"]
+        for method in ("explicit", "arkode-explicit", "arkode-implicit"):
+            with self.subTest(method=method):
+                (a, _), warned = speeds(method, "--set", f'integrator.method="{method}"')
+                self.assertGreater(a, -0.6 * 2500)
+                self.assertFalse([text for text in warned if "give way" in text], warned)
+        (a, _), warned = speeds("shallow", "--set", "contact.depth=0.5")
+        self.assertLess(a, -0.9 * 2500)
+        self.assertTrue([text for text in warned if "give way" in text], warned)
+
 
 if __name__ == "__main__":
     unittest.main()
