@@ -53,7 +53,7 @@ double speed_against(const Body& body, const Body& other) {
 /// Z_a Z_b / (Z_a + Z_b) of plane waves (Z = rho c) that the meeting of two bodies starts: with less, bodies
 /// pass through each other.
 double depth_between(const Scene& scene, const Body& a, const Body& b, double stiffness) {
-  constexpr double least = 0.5, most = 2.0;  // cells
+  constexpr double least = 0.5, most = 1.0;  // cells; deeper, thin bodies would feel each other's far sides
   if (scene.contact.depth) return *scene.contact.depth * scene.cell;
   const auto impedance = [](const Body& body) {
     return body.material->density() * body.material->wave_speed();

@@ -43,7 +43,7 @@ const Table& contact_table() {
         "cells",
         {0.0, 2.0, true, false},
         "bodies: penetration at which a surface gives way; the largest pressure is at half of it; absent: "
-        "0.5, or what bears twice the pressure of the impact, if that is more"},
+        "0.5, or what bears twice the pressure of the impact, if that is more, but 1 at most"},
        {"pair", &C::pairs, pair_table(), "overrides for two bodies"}});
   return table;
 }

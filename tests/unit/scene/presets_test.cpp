@@ -94,7 +94,7 @@ TEST_CASE("Presets: faults name the place of the preset", "[scene][presets]") {
   require_faults("preset = \"cooper\"\n" + elastic, 1,
                  "s.toml:23:10: key 'material.glass.preset': found \"cooper\"", "did you mean 'copper'?");
   require_faults("preset = 5\n" + elastic, 1, "s.toml:23:10: key 'material.glass.preset'",
-                 "expected the name of a preset");
+                 "expected one of \"PVB\"");
   require_faults(elastic, 1, "--set 1: key 'material.glass.preset': found \"Steel\"", "expected",
                  {"material.glass.preset=\"Steel\""});
   // Values of the preset that contradict the scene's.

@@ -193,7 +193,7 @@ TEST_CASE("a row's bounds, choices, default and meaning stand in the JSON schema
   CHECK(keys["number"]["description"].get<std::string>().starts_with("a number"));
   CHECK(keys["maybe"]["type"] == nlohmann::json{"number", "string", "null"});
   CHECK(keys["integer"]["default"] == 3);
-  CHECK(keys["square"]["enum"] == nlohmann::json{1, 4, 9});
+  CHECK(keys["square"]["anyOf"][0]["enum"] == nlohmann::json{1, 4, 9});
   CHECK(keys["colour"]["enum"] == nlohmann::json{"red", "green"});
   CHECK(keys["matrix"]["maxItems"] == 2);
   CHECK(keys["rows"]["items"]["minItems"] == 4);
