@@ -9,7 +9,7 @@ struct NewOptions {
   bool list = false;            // names instead, with what they are
 };
 
-/// Writes a template of a scene (templates/NAME.toml), or lists them. Raises InputError for an unknown name
+/// Writes a template of a scene (examples/NAME.toml), or lists them. Raises InputError for an unknown name
 /// and for a file that is there already, FileError where it cannot be written.
 int new_scene(const NewOptions& options);
 

@@ -21,6 +21,8 @@ def _check(cases):
 
 def _report(study, quick, out):
     values = study.report(quick, out)
+    if values is None:  # it has written its page itself
+        return 0
     folder = pathlib.Path(sys.modules[study.__name__].__file__).parent
     page = fill((folder / "page.md").read_text(), values) + "\n" + provenance(study.name, quick, out)
     check_pictures(page, out / "figures")
@@ -38,7 +40,7 @@ def _report(study, quick, out):
 
 def main(study):
     """`study` is a module with: name; jobs(quick): names of jobs; cases(quick): every case that is known beforehand;
-    run(job, quick, out); report(quick, out): values of the page. It may name its page and the folder of its pictures, and templates of blocks in other
+    run(job, quick, out); report(quick, out): values of the page, or None where it writes that itself. It may name its page and the folder of its pictures, and templates of blocks in other
     pages, with block_values(quick, out)."""
     parser = argparse.ArgumentParser(description=study.__doc__)
     parser.add_argument("verb", choices=["check", "run", "report"])

@@ -41,7 +41,7 @@ def check_pictures(page, figures):
         raise PageError(f"the page shows pictures that nobody drew: {', '.join(missing)}")
 
 
-def _machine():
+def machine():
     model = "unknown processor"
     cpuinfo = pathlib.Path("/proc/cpuinfo")
     if cpuinfo.exists():
@@ -62,7 +62,7 @@ def provenance(name, quick, out):
     count, seconds = run_times(out)
     command = f"./quickstart study {name}" + (" --quick" if quick else "")
     return ("## How this page was made\n\n"
-            f"`{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {_machine()}; {count:,} runs, {seconds:,.0f} s together. "
+            f"`{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {machine()}; {count:,} runs, {seconds:,.0f} s together. "
             "The program writes this page; do not edit it. The text is that of "
             f"`studies/{name}/page.md`; tables (CSV) and all figures (PNG, PDF) stand in `out/study-{name}{'-quick' if quick else ''}`.\n")
 

@@ -1,7 +1,8 @@
-# The rules of every study. The Snakefile that includes them sets STUDY; the working directory is the study's output folder.
+# The rules of every study. The Snakefile that includes them sets STUDY, and REPORT where its page is no page.md; the working directory is the study's output folder.
 import importlib
 import os
 import pathlib
+import shlex
 import sys
 
 STUDIES = pathlib.Path(workflow.basedir).parent
@@ -10,7 +11,8 @@ from vitrum.program import program
 os.environ["VITRUM"] = str(program())
 QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
 # Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
-MODULE = f"PYTHONPATH={STUDIES} PYTHONDONTWRITEBYTECODE=1 VITRUM={os.environ['VITRUM']} /usr/bin/python3 -m {STUDY}.study"
+MODULE = f"PYTHONPATH={shlex.quote(str(STUDIES))} PYTHONDONTWRITEBYTECODE=1 VITRUM={shlex.quote(os.environ['VITRUM'])} /usr/bin/python3 -m {STUDY}.study"
+REPORT = globals().get("REPORT", "page.md")
 JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
 
 localrules: all, check
@@ -20,7 +22,7 @@ SOURCES = [str(path) for folder in (STUDY, "study", "vitrum", "vitrum/plot") for
     [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
 
 rule check:
-    input: os.environ["VITRUM"], SOURCES
+    input: os.environ["VITRUM"], SOURCES, ["plan.json"] if os.path.exists("plan.json") else []
     output: "checked.txt"
     message: "checking every scene"
     shell: "{MODULE} check {QUICK} > {output}"
@@ -32,7 +34,7 @@ rule job:
     shell: "{MODULE} run {wildcards.job} {QUICK}"
 
 rule report:
-    input: expand("jobs/{job}.done", job=JOBS), [str(path) for path in sorted((STUDIES / STUDY).glob("*.md"))]
-    output: "page.md"
+    input: expand("jobs/{job}.done", job=JOBS), [str(path) for pattern in ("*.md", "*.html") for path in sorted((STUDIES / STUDY).glob(pattern))]
+    output: REPORT
     message: "tables, figures and page"
     shell: "{MODULE} report {QUICK}"

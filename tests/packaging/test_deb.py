@@ -23,7 +23,7 @@ class DebianPackage(PackagingTest):
 
         contents = [line.split()[5] for line in self.command("dpkg-deb", "-c", package).splitlines()]
         self.assertTrue(all(name.startswith("./usr/") or name in ("./", "./usr") for name in contents), contents)
-        for name in ("bin/vitrum", "bin/vitrum-report", "include/vitrum/materials/law.hpp", "share/vitrum/studies/plot_run.py", "lib/python3/dist-packages/vitrum",
+        for name in ("bin/vitrum", "bin/vitrum-report", "bin/vitrum-study", "include/vitrum/materials/law.hpp", "share/vitrum/studies/plot_run.py", "lib/python3/dist-packages/vitrum",
                      "share/doc/vitrum/CITATION.cff", "share/doc/vitrum/examples/point/point.cpp"):
             self.assertIn(f"./usr/{name}", contents)
         self.assertTrue(any(name.endswith("cmake/vitrum/vitrumConfig.cmake") for name in contents))

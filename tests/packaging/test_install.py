@@ -55,6 +55,15 @@ class Install(PackagingTest):
         self.command(self.prefix / "bin/vitrum-report", run, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
         self.assertIn("The run is complete", (run / "report.html").read_text())
 
+    def test_study_of_a_scene_runs_by_what_is_installed(self):
+        study = self.folder / "mine.toml"
+        study.write_text(f'scene = "{source}/tests/cli/scenes/impact.toml"\nset = {{"time.end" = 1e-6}}\n[vary]\n"body.cylinder.velocity.1" = [-100, -200]\n'
+                         '[report]\nkinds = ["sweep"]\n')
+        environment = {key: value for key, value in os.environ.items() if key != "VITRUM"} | {"PYTHONDONTWRITEBYTECODE": "1"}
+        self.command(self.prefix / "bin/vitrum-study", study, env=environment)
+        self.assertEqual(len((self.folder / "out/study-mine/tables/sweep.csv").read_text().splitlines()), 3)
+        self.assertIn(str(self.prefix / "bin/vitrum"), (self.folder / "out/study-mine/runs/base/outcome.json").read_text())
+
     def test_pictures_of_a_run_are_drawn_by_what_is_installed(self):
         run = self.folder / "run"
         self.command(self.prefix / "bin/vitrum", "run", source / "tests/cli/scenes/impact.toml", "--out", run)

@@ -1,0 +1,139 @@
+"""What a run predicts: numbers by path in its summary, or formulas of such; what every scene has; what their errors are measured by."""
+import ast
+import math
+import operator
+import re
+
+import numpy as np
+from study.outcome import StudyError
+
+from own.file import Quantity
+
+_operations = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow,
+               ast.USub: operator.neg, ast.UAdd: operator.pos}
+_functions = {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp, "min": min, "max": max, "hypot": math.hypot}
+# A path: names, numbers and quoted names, joined by dots; a name with blanks is quoted: bodies."inner pane".kinetic.
+_path = re.compile(r"""(?<![\w."])[A-Za-z_]\w*(?:\.(?:\w+|"[^"]*"))+""")
+
+
+def of_run(outcome):
+    """summary.json, with what follows from the tables: bodies.NAME.velocity (m/s), .largest_fragment (kg), .elastic (J) and contacts.N.duration (s),
+    .impulse. None: the run left none."""
+    summary = outcome.summary
+    if summary is None:
+        return None
+    rows = outcome.results.columns("bodies")
+    for name, body in summary["bodies"].items():
+        body["velocity"] = [momentum / body["mass"] for momentum in body["momentum"]]
+        of = np.flatnonzero(rows["body"] == name)
+        for key in ("largest_fragment", "elastic"):
+            body[key] = float(rows[key][of[-1]]) if of.size else None
+    if summary["contacts"]:
+        table = outcome.results.columns("contacts")
+        for pair in summary["contacts"]:
+            pair["duration"] = _duration(table, pair["bodies"])
+    return summary
+
+
+def _duration(table, bodies):
+    """How long two bodies have pressed on each other (s): from the last row before their impulse grows to the first at which it stays. None: never."""
+    of = (table["body_a"] == bodies[0]) & (table["body_b"] == bodies[1])
+    time, impulse = table["time"][of], np.hypot(table["impulse_r"][of], table["impulse_z"][of])
+    moving = np.flatnonzero(np.diff(impulse) != 0.0)
+    return float(time[moving[-1] + 1] - time[moving[0]]) if moving.size else None
+
+
+def _walk(tree, path):
+    for part in re.findall(r'"([^"]*)"|([^."]+)', path):
+        key = part[0] or part[1]
+        if tree is None:  # of what has not happened the summary has no more
+            return None
+        try:
+            tree = tree[int(key)] if isinstance(tree, list) else tree[key]
+        except (KeyError, IndexError, ValueError, TypeError):
+            names = ", ".join(tree) if isinstance(tree, dict) else f"0 to {len(tree) - 1}" if isinstance(tree, list) else "nothing below"
+            raise StudyError(f"{path!r}: found {key!r}, expected one of {names}") from None
+    return tree
+
+
+def value(source, summary):
+    """A number, or None where the run has none (null in the summary, or what a formula makes of one). Raises StudyError for what is no path or formula.
+
+    >>> value('2 * bodies."inner pane".kinetic / energy.initial', {"bodies": {"inner pane": {"kinetic": 3.0}}, "energy": {"initial": 4.0}})
+    1.5
+    """
+    found = {}
+
+    def name(match):
+        found[f"path_{len(found)}"] = _walk(summary, match[0])
+        return f"path_{len(found) - 1}"
+
+    try:
+        tree = ast.parse(_path.sub(name, source).strip().removeprefix("=").strip(), mode="eval").body
+    except SyntaxError:
+        raise StudyError(f"{source!r} is no path in summary.json and no formula of such; names with blanks are quoted: bodies.\"inner pane\".kinetic") from None
+    if any(each is None for each in found.values()):
+        return None
+    try:
+        result = _evaluate(tree, found, source)
+    except (ZeroDivisionError, ValueError, OverflowError):
+        return None
+    if isinstance(result, bool):
+        return float(result)
+    if not isinstance(result, (int, float)):
+        raise StudyError(f"{source!r} is no number but {type(result).__name__}")
+    return float(result)
+
+
+def _evaluate(node, found, source):
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        return node.value
+    if isinstance(node, ast.Name) and node.id in found:
+        return found[node.id]
+    if isinstance(node, ast.BinOp) and type(node.op) in _operations:
+        return _operations[type(node.op)](_evaluate(node.left, found, source), _evaluate(node.right, found, source))
+    if isinstance(node, ast.UnaryOp) and type(node.op) in _operations:
+        return _operations[type(node.op)](_evaluate(node.operand, found, source))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _functions and not node.keywords:
+        return _functions[node.func.id](*(_evaluate(each, found, source) for each in node.args))
+    raise StudyError(f"{source!r}: found {ast.unparse(node)!r}, expected paths in summary.json, numbers, + - * / **, and {', '.join(_functions)}")
+
+
+def of_every_scene(scene):
+    """Per body: velocity along the axis (in plane strain along both), kinetic energy; what can fail: localised, separated, largest fragment, first events."""
+    axes = {1: "z"} if scene["space"]["geometry"] == "axisymmetric" else {0: "x", 1: "y"}
+    for body in scene["body"]:
+        name, path = body["name"], f'bodies."{body["name"]}"'
+        for axis, letter in axes.items():
+            yield Quantity(f"velocity of {name} along {letter}", f"{path}.velocity.{axis}", unit="m/s")
+        yield Quantity(f"kinetic energy of {name}", f"{path}.kinetic", unit="J")
+        material = scene["material"][body["material"]]
+        if "decohesion" in material:
+            yield Quantity(f"localised of {name}", f"{path}.localised")
+            yield Quantity(f"separated of {name}", f"{path}.separated")
+            yield Quantity(f"largest fragment of {name}", f"{path}.largest_fragment", unit="kg")
+            yield Quantity(f"first localisation of {name}", f"{path}.first_localisation.time", unit="s")
+            yield Quantity(f"first separation of {name}", f"{path}.first_separation.time", unit="s")
+        elif "damage" in material or "johnson_holmquist" in material:
+            yield Quantity(f"first damage of {name}", f"{path}.first_damage.time", unit="s")
+
+
+def speed_of(scene):
+    """The largest speed that the scene gives a body or a boundary (m/s); None: nothing moves at the start."""
+    speeds = [math.hypot(*each["velocity"]) for each in [*scene["body"], *scene.get("boundary", [])] if all(isinstance(part, (int, float)) for part in each.get("velocity", ["?"]))]
+    return max(speeds, default=0.0) or None
+
+
+def scales(quantities, scene, summary):
+    """What errors are measured by: of velocities the scene's largest speed, of times its duration, of energies what it began with; of others their own size.
+    A quantity's own `scale` wins."""
+    time = scene["time"]
+    known = {"m/s": speed_of(scene), "s": time["end"] - time["start"], "J": summary["energy"]["initial"] or abs(summary["energy"]["external"]) or None}
+    found = {}
+    for quantity in quantities:
+        size = quantity.scale or known.get(quantity.unit)
+        if not size:
+            here = value(quantity.source, summary)
+            size = abs(here) if here else 1.0
+        found[quantity.name] = size
+    return found
