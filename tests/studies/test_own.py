@@ -221,6 +221,21 @@ sweep_bars = ["time"]
         page = (out / "report.html").read_text()
         missing = [part for part in ("Error bars", "What an accuracy costs", "Sweep", "MUSL, step 4e-07: failed", "Runs that did not come to their end") if part not in page]
         self.assertEqual(missing, [])
+        self.assert_page_works(out / "report.html")
+
+    def assert_page_works(self, path):
+        """In a browser, where there is one: nothing to complain of, and no wider than a phone."""
+        sys.path.insert(0, str(source / "tests/python"))
+        import browser
+        if not browser.there:
+            return
+        driver = browser.start()
+        self.addCleanup(driver.quit)
+        browser.look(driver, 360, 740, "dark")
+        driver.get(f"file://{path}")
+        self.assertEqual(browser.complaints(driver), [])
+        self.assertLessEqual(driver.execute_script("return document.documentElement.scrollWidth"), 360)
+        self.assertEqual(driver.execute_script("return [...document.querySelectorAll('figure svg')].filter(each => each.getBoundingClientRect().height < 60).length"), 0)
 
 
 class KnownAnswer(Folder):
