@@ -2,6 +2,7 @@
 import json
 import pathlib
 import re
+import sys
 
 from study.case import Case
 from study.outcome import StudyError
@@ -140,7 +141,7 @@ def make(path, quick):
         for n, point in enumerate(grid(study.vary)):
             add("point", point, point=n)
             _bars(study, efforts, study.sweep_bars, add, n, point)
-    return {"file": str(path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if "sweep" in study.kinds else [],
+    return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if "sweep" in study.kinds else [],
             "varied": list(study.vary), "sweep_bars": study.sweep_bars, "converged": study.converged, "members": study.members, "longest": study.longest,
             "quantities": [vars(each) for each in study.quantities] if study.quantities else None, "resolved": study.resolved, "cases": cases}
 
@@ -154,6 +155,17 @@ def write(path, quick, out):
         following.write_text(text)
         following.replace(target)
     return json.loads(text)
+
+
+def main(path, out, quick):
+    """Makes the plan; exit status 2 where the file, or the scene with the settings of every case, is wrong."""
+    try:
+        write(path, quick == "1", out)
+    except StudyError as error:
+        lines = str(error).splitlines()
+        print("\n".join([lines[0] if lines[0].startswith("error: ") else f"error: {lines[0]}", *lines[1:]]), file=sys.stderr)
+        return 2
+    return 0
 
 
 def load(out):
@@ -175,3 +187,7 @@ def case(plan, name):
 def typed(settings):
     """The settings as one would type them."""
     return " ".join(overrides(settings))
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -66,11 +66,11 @@ class StudyFile(Folder):
 
     def test_a_refused_scene_or_quantity_ends_the_study_before_it_starts(self):
         scene = f'scene = "{blocks}"\n'
-        for text, expected in ((scene + '[vary]\n"integrator.courant" = [0.4, -1.0]\n[report]\nkinds = ["sweep"]', "case point-1: exit status 2: error: --set .*integrator.courant"),
-                               (scene + '[[quantity]]\nname = "speed"\nfrom = "bodies.stricker.kinetic"\n[report]\nkinds = ["error-bars"]', "found 'stricker', expected one of target, striker"),
-                               (scene + 'set = {"time.end" = -1.0}', "time.end")):
+        for text, expected, status in ((scene + '[vary]\n"integrator.courant" = [0.4, -1.0]\n[report]\nkinds = ["sweep"]', "case point-1: exit status 2: error: --set .*integrator.courant", 1),
+                               (scene + '[[quantity]]\nname = "speed"\nfrom = "bodies.stricker.kinetic"\n[report]\nkinds = ["error-bars"]', "found 'stricker', expected one of target, striker", 1),
+                               (scene + 'set = {"time.end" = -1.0}', "^error: .*time.end", 2), (scene + "nonsense = 1", "^error: .*study.toml:2: key 'nonsense'", 2)):
             with self.subTest(expected=expected):
-                self.assertRegex(self.command(self.write(text), status=1).stderr, expected)
+                self.assertRegex(self.command(self.write(text), status=status).stderr, expected)
                 self.assertFalse((self.folder / "out/runs").exists())
         self.command(self.folder / "none.toml", status=2)
 
