@@ -23,7 +23,10 @@ RegisteredLaw law(std::string table, std::string text) {
   static constexpr auto parameters_of = [](const MaterialParameters& material) -> const Parameters& {
     return std::any_cast<const Parameters&>(material.law->values);
   };
-  RegisteredLaw entry{.table = std::move(table), .text = std::move(text), .variables = Law::all_variables()};
+  RegisteredLaw entry{};
+  entry.table = std::move(table);
+  entry.text = std::move(text);
+  entry.variables = Law::all_variables();
   entry.keys = schema::table_of("[material.NAME." + entry.table + ']', entry.text + '.', Parameters::rows());
   entry.defaults = [](std::string_view name) { return LawParameters{std::string(name), Parameters{}}; };
   entry.values = [](const LawParameters& law) -> const void* {
