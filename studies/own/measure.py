@@ -3,6 +3,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from study.advice import cheapest
 from study.outcome import run as compute
 
 from own import plan as plans
@@ -122,9 +123,10 @@ def recommendations(rows):
             if apart is None or apart > level:
                 yield base | {"advice": "undecidable: the references differ by more" if apart is not None else "undecidable: a reference has no value"}
                 continue
-            holding = [row for row in of if row.get("seconds") is not None and all(
-                other["error"] is not None and other["error"] <= level for other in of if other["method"] == row["method"] and other["rung"] >= row["rung"])]
-            best = min(holding, key=lambda row: row["seconds"], default=None)
+            ladders = {}
+            for row in sorted(of, key=lambda row: row["rung"]):
+                ladders.setdefault(row["method"], []).append(row)
+            best = cheapest(ladders.values(), "error", level)
             yield base | ({"advice": "none of the ladders"} if best is None else {"advice": f"{best['method']}, {best['setting']}", "seconds": best["seconds"], "error": best["error"]})
 
 

@@ -1,4 +1,6 @@
 """The cheapest setting for an accuracy."""
+from study.advice import cheapest
+
 from trade.figures import names as family_names
 from trade.problems import names, problems, title
 
@@ -6,21 +8,12 @@ levels = (0.1, 0.01, 0.001)
 fixed_steps = ("usf", "usl", "musl")
 
 
-def _holds(row, family_rows, quantity, level):
-    """The level is met by the row and by all tighter settings of its family: no lucky hits."""
-    return all(other[quantity] is not None and other[quantity] <= level for other in family_rows if other["tightness"] <= row["tightness"])
-
-
 def _cheapest(rows, quantity, level, families=None):
-    best = None
-    for row in rows:
-        if row.get(quantity) is None or (families and row["family"] not in families) or row["local"] not in ("closed-form", "substep 1e-06", "substep 0.0001"):
-            continue
-        same = [other for other in rows if (other["family"], other["local"]) == (row["family"], row["local"]) and other["shape"] == row["shape"]
-                and other.get("seconds")]
-        if _holds(row, same, quantity, level) and (best is None or row["seconds"] < best["seconds"]):
-            best = row
-    return best
+    ladders = {}
+    for row in sorted(rows, key=lambda row: -row["tightness"]):
+        if row.get("seconds") and (not families or row["family"] in families) and row["local"] in ("closed-form", "substep 1e-06", "substep 0.0001"):
+            ladders.setdefault((row["family"], row["local"], row["shape"]), []).append(row)
+    return cheapest(ladders.values(), quantity, level)
 
 
 def describe(row):
