@@ -65,6 +65,16 @@ class Quickstart(unittest.TestCase):
         _, calls = self.run_it("test", "asan")
         self.assertEqual(calls, ["cmake --preset asan -DVITRUM_TESTS=ON", "cmake --build --preset asan", "ctest --preset asan"])
 
+    def test_the_pages_need_no_build(self):
+        """And no package of the program."""
+        self.installed("libsundials-dev|python3-sphinx-rtd-theme")
+        self.tool("sphinx-build", "")
+        out, calls = self.run_it("docs")
+        self.assertEqual(calls, ["sphinx-build -q -W --keep-going -c docs/site docs build/docs"])
+        self.assertIn("apt-get install python3-sphinx-rtd-theme", out)
+        self.assertNotIn("libsundials-dev", out)
+        self.assertIn("build/docs/index.html", out)
+
     def test_a_moved_checkout_builds_anew_and_says_so(self):
         cache = self.home / "build/release/CMakeCache.txt"
         for home, moved in ((str(self.home), False), ("/somewhere/else", True)):

@@ -15,7 +15,7 @@ sys.path.insert(0, str(source / "studies"))
 
 title = "A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method"
 again = "make it anew: ./quickstart study findings"
-pages = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
+pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
 
 
 def flat(table, prefix=""):
