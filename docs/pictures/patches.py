@@ -24,7 +24,7 @@ def draw():
                 left.plot([x, x], [base - 0.5 * direction, base], color=colour, linewidth=0.9, linestyle=":")
     left.annotate("", (1.08, 1.65), (1.08, 1.35), arrowprops={"arrowstyle": "<->", "shrinkA": 0, "shrinkB": 0})
     left.text(1.18, 1.5, "gap g", va="center", fontsize=9)
-    left.text(5.6, 3.05, "body b", color=orange, ha="right", va="center", fontsize=8.5)
+    left.text(5.35, 2.95, "body b", color=orange, ha="right", va="center", fontsize=8.5)
     left.text(0.05, 0.12, "body a", color=blue, fontsize=8.5)
     p = np.linspace(0, 2.1, 400)
     right.axhline(0, color="black", linewidth=0.6)
