@@ -118,7 +118,7 @@ class Laws(CommandLineTest):
             with self.subTest(scene=scene.name):
                 facts = json.loads(self.vitrum("check", scene, "--json").stdout)
                 self.assertEqual(facts["warnings"], [])
-                start = tomllib.loads(scene.read_text())["time"]["start"]
+                start = tomllib.loads(facts["resolved"])["time"]["start"]
                 folder = self.folder / scene.stem
                 self.vitrum("run", scene, *overrides(time__end=start + 1e-6), "--out", folder)
                 self.assertEqual(read_summary(folder)["status"], "complete")
