@@ -32,8 +32,8 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   std::vector<Variable> variables() const;
   const Moduli& elastic() const { return elastic_; }
   double strain_scale() const { return elastic_limit(parameters_); }
-  void start(const SymmetricTensor& stress, CompositeState& s) const {
-    s.elastic_strain = elastic_.strain(stress);
+  void start(const SymmetricTensor& given, CompositeState& s) const {
+    s.elastic_strain = elastic_.strain(given);
   }
   void judge(CompositeState& s, PointReport& report) const;
   void advance(CompositeState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
@@ -50,6 +50,8 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   static constexpr bool marks_directions = true;
   bool mark_inelastic(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
                       InelasticMarks& marks) const;
+  void mark_by_rate(const ParticleColumns& p, std::size_t begin, std::size_t end, double duration,
+                    InelasticMarks& marks) const;
   VITRUM_INLINE SymmetricTensor elastic_stress(const SymmetricTensor& e, double crack_density) const {
     return secant_without_branches(trace(e), crack_density).stress(e);
   }
@@ -59,6 +61,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
 
  private:
   using Models::damage_;
+  using Models::damage_at_once;
   using Models::damage_localisation;
   using Models::decohesion_;
   using Models::drucker_prager_;
@@ -119,9 +122,6 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
                      PointReport& report) const;
   double damage_dissipation(const Leg& leg, const CompositeState& end, double end_fraction) const;
 
-  // start.hpp
-  void damage_at_once(CompositeState& s, PointReport& report) const;
-
   // localised.hpp
   void advance_localised(CompositeState& s, const SymmetricTensor& strain, double duration, double done,
                          PointReport& report) const;
@@ -148,6 +148,8 @@ std::vector<Variable> CompositeClosedForm<D, Y, C>::variables() const {
   if constexpr (D) add(damage_variables());
   if constexpr (has_yield) add(plasticity_variables());
   if constexpr (C) add(decohesion_variables());
+  if constexpr (D)
+    if (damage_.averages_rate()) add(averaged_rate_variables());
   return list;
 }
 

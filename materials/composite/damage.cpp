@@ -21,6 +21,7 @@ DamageLaw::DamageLaw(const DamageParameters& parameters, const ElasticParameters
   const double wave_speed = std::sqrt(elastic.young / elastic.density);  // c of eq. 7: uniaxial stress
   const double ratio = parameters.toughness / (elastic.density * wave_speed);
   coefficient_at_unit_rate_ = 2.5 * parameters.k * ratio * ratio;
+  if (parameters.volumetric) trace_per_strain_ = 1.0;
   const double rounded = std::round(parameters.m);
   if (rounded == parameters.m && rounded <= 32.0) integer_exponent_ = static_cast<unsigned>(rounded);
 }

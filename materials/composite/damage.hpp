@@ -8,14 +8,29 @@
 
 namespace vitrum {
 
+/// Which rate of eps_v enters eq. 7.
+enum class DamageRate : unsigned char {
+  running_maximum,   ///< the largest so far while eps_v grew under tension
+  current,           ///< that of the increment
+  maximum_any_sign,  ///< the largest size so far, of growth or fall under tension or pressure
+  averaged,          ///< the largest so far of the average over a time
+  fixed
+};
+
 /// Scene table [material.NAME.damage]: rate-dependent tensile damage, eqs. 4-9.
 struct DamageParameters {
   double toughness = 0.0;   ///< K_IC, Pa sqrt(m)
   double k = 0.0;           ///< 1/m^3
   double m = 0.0;           ///< exponent of eq. 7
   double rate_floor = 1.0;  ///< 1/s, least rate that enters eq. 7
-  double fixed_rate = 0.0;  ///< 1/s; > 0: this rate enters eq. 7 instead of the running maximum
+  double fixed_rate = 0.0;  ///< 1/s; > 0: this rate enters eq. 7 whatever the history
+  DamageRate history = DamageRate::running_maximum;  ///< of the first three; where none of the times is set
+  double averaging_time = 0.0;                       ///< s; > 0: the rate is averaged over it
+  bool volumetric = false;                           ///< eps_v is tr(e) instead of the mean strain tr(e)/3
 
+  DamageRate rate() const {
+    return fixed_rate > 0.0 ? DamageRate::fixed : averaging_time > 0.0 ? DamageRate::averaged : history;
+  }
   static schema::Fields<DamageParameters> rows();
 };
 
@@ -47,17 +62,44 @@ class DamageLaw {
   /// D = 1 - K_bar/K, eq. 8.
   double damage(double x) const { return 1.0 - moduli(x).bulk / undamaged_.bulk; }
 
-  /// The rate that enters eq. 7 when the running maximum is `max_rate`, 1/s.
+  /// eps_v of a trace, and the trace at it.
+  VITRUM_INLINE double strain_of(double trace) const { return trace / trace_per_strain_; }
+  VITRUM_INLINE double trace_of(double strain) const { return trace_per_strain_ * strain; }
+  double rate_of(double trace_change, double duration) const {
+    return trace_change / (trace_per_strain_ * duration);
+  }
+
+  DamageRate rate() const { return parameters_.rate(); }
+  bool averages_rate() const { return parameters_.rate() == DamageRate::averaged; }
+  /// Takes up the rates of an increment that begins, whatever its sign. max_rate: what enters eq. 7;
+  /// mean_rate: the average, R' = (eps_v' - R) / averaging_time, of which an increment sees the end.
+  void begin(double trace_change, double duration, double& max_rate, double& mean_rate) const {
+    if (!(duration > 0.0)) return;
+    const double rate = rate_of(trace_change, duration);
+    if (parameters_.rate() == DamageRate::maximum_any_sign)
+      max_rate = std::max(max_rate, std::abs(rate));
+    else if (averages_rate())
+      mean_rate -= (rate - mean_rate) * std::expm1(-duration / parameters_.averaging_time);
+  }
+  /// The same, where eps_v grows under tension.
+  void grow(double trace_change, double duration, double& max_rate, double mean_rate) const {
+    if (!(trace_change > 0.0 && duration > 0.0)) return;
+    if (parameters_.rate() == DamageRate::current)
+      max_rate = rate_of(trace_change, duration);
+    else
+      max_rate = std::max(max_rate, averages_rate() ? mean_rate : rate_of(trace_change, duration));
+  }
+  /// The rate that enters eq. 7 when the rate of the history is `max_rate`, 1/s.
   VITRUM_INLINE double effective_rate(double max_rate) const {
     return parameters_.fixed_rate > 0.0 ? parameters_.fixed_rate : std::max(max_rate, parameters_.rate_floor);
   }
   /// C(R) of rho_d = C eps_v^m (eq. 7). rate: 1/s, > 0.
   VITRUM_INLINE double coefficient(double rate) const { return coefficient_at_unit_rate_ / (rate * rate); }
 
-  /// Crack density of eq. 7 at mean strain eps_v = tr(e)/3, capped at 9/16; 0 where eps_v <= 0.
-  double target(double mean_strain, double coefficient) const {
-    if (mean_strain <= 0.0) return 0.0;
-    return std::min(coefficient * power(mean_strain), crack_density_limit);
+  /// Crack density of eq. 7 at eps_v, capped at 9/16; 0 where eps_v <= 0.
+  double target(double strain, double coefficient) const {
+    if (strain <= 0.0) return 0.0;
+    return std::min(coefficient * power(strain), crack_density_limit);
   }
   /// Multiplies `result` with the m-th powers of `values`, which it uses up: v^m to the bit of `target`, for
   /// several at a time.
@@ -70,13 +112,13 @@ class DamageLaw {
       for (std::size_t k = 0; k < size; ++k) values[k] *= values[k];
     }
   }
-  /// d(target)/d(mean strain), without the cap.
-  double target_slope(double mean_strain, double coefficient) const {
-    if (mean_strain <= 0.0) return 0.0;
-    return parameters_.m * coefficient * power(mean_strain) / mean_strain;
+  /// d(target)/d(eps_v), without the cap.
+  double target_slope(double strain, double coefficient) const {
+    if (strain <= 0.0) return 0.0;
+    return parameters_.m * coefficient * power(strain) / strain;
   }
-  /// Mean strain at which eq. 7 reaches `crack_density` (>= 0).
-  double mean_strain_at(double crack_density, double coefficient) const {
+  /// eps_v at which eq. 7 reaches `crack_density` (>= 0).
+  double strain_at(double crack_density, double coefficient) const {
     return crack_density <= 0.0 ? 0.0 : std::pow(crack_density / coefficient, 1.0 / parameters_.m);
   }
 
@@ -113,6 +155,7 @@ class DamageLaw {
   Moduli undamaged_{};
   double poisson_ = 0.0;
   double coefficient_at_unit_rate_ = 0.0;
+  double trace_per_strain_ = 3.0;  ///< 3 where eps_v is the mean strain, 1 where it is the trace
   unsigned integer_exponent_ = 0;
 };
 

@@ -61,9 +61,16 @@ std::vector<Variable> damage_variables() {
            .bounds = {0.0, crack_density_limit}},
           {.name = "max_rate",
            .unit = "1/s",
-           .text = "running maximum of the tensile mean strain rate, eq. 7",
+           .text = "strain rate that enters eq. 7 (`damage.rate`): by default the largest so far under tension",
            .scale = 1.0e3,
            .bounds = not_negative}};
+}
+
+std::vector<Variable> averaged_rate_variables() {
+  return {{.name = "mean_rate",
+           .unit = "1/s",
+           .text = "rate of eps_v averaged over a time (`damage.rate`)",
+           .scale = 1.0e3}};
 }
 
 std::vector<Variable> plasticity_variables() {

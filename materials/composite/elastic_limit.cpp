@@ -15,9 +15,9 @@ double elastic_limit(const MaterialParameters& parameters) {
     limit = std::min(limit, parameters.drucker_prager->yield / young);
   if (parameters.damage) {
     const DamageLaw law(*parameters.damage, parameters.elastic);
-    const double mean_strain = std::pow(
+    const double strain = std::pow(
         0.1 * crack_density_limit / law.coefficient(law.effective_rate(1.0e3)), 1.0 / law.exponent());
-    limit = std::min(limit, 3.0 * mean_strain);
+    limit = std::min(limit, law.trace_of(strain));
   }
   return limit < 1.0 ? limit : 1.0e-3;
 }

@@ -25,8 +25,9 @@ bool CompositeClosedForm<D, Y, C>::mark_inelastic(const ParticleColumns& p, std:
   const double* plastic_strain = has_yield ? variable(Column::plastic_strain) : a0;
   const double* effective_length = C ? variable(Column::effective_length) : a0;
   const std::size_t size = end - begin;
-  double mean[elastic_run],
-      power[elastic_run];  // strain where damage may grow, otherwise 0; its m-th power
+  [[maybe_unused]] const DamageLaw law = damage_;  // (which no store can change)
+  double strain[elastic_run],
+      power[elastic_run];  // eps_v where damage may grow, otherwise 0; its m-th power
 #pragma GCC ivdep
   for (std::size_t k = 0; k < size; ++k) {
     const SymmetricTensor e0{a0[k], a1[k], a2[k], a3[k]},
@@ -39,8 +40,8 @@ bool CompositeClosedForm<D, Y, C>::mark_inelastic(const ParticleColumns& p, std:
     if constexpr (D || Y == Yielding::drucker_prager) mark = std::max(mark, tension * pressure);
     if constexpr (D) {
       const double grows = t1 > t0 ? tension : 0.0;
-      mark = std::max(mark, t1 - t0 > 3.0 * duration * max_rate[k] ? grows : 0.0);
-      mean[k] = grows > 0.0 ? t1 / 3.0 : 0.0;
+      mark = std::max(mark, t1 - t0 > law.trace_of(duration) * max_rate[k] ? grows : 0.0);
+      strain[k] = grows > 0.0 ? law.strain_of(t1) : 0.0;
       power[k] = 1.0;
     }
     if constexpr (has_yield) {
@@ -53,19 +54,37 @@ bool CompositeClosedForm<D, Y, C>::mark_inelastic(const ParticleColumns& p, std:
     marks[k] = mark;
   }
   if constexpr (D) {
-    const DamageLaw law = damage_;  // (which no store can change)
-    law.raise(mean, power, size);
+    law.raise(strain, power, size);
 #pragma GCC ivdep
     for (std::size_t k = 0; k < size; ++k) {
       const double rate = law.effective_rate(max_rate[k]),
                    target = std::min(law.coefficient(rate) * power[k], crack_density_limit);
       marks[k] = target > density[k] ? 1.0 : marks[k];
     }
+    mark_by_rate(p, begin, end, duration, marks);
   }
   double any = 0.0;
 #pragma omp simd reduction(max : any)
   for (std::size_t k = 0; k < size; ++k) any = std::max(any, marks[k]);
   return any > 0.0;
+}
+
+/// Marks besides those whose rate has to be noted, where it is not only a new maximum under tension.
+template <bool D, Yielding Y, bool C>
+void CompositeClosedForm<D, Y, C>::mark_by_rate(const ParticleColumns& p, std::size_t begin, std::size_t end,
+                                                double duration, InelasticMarks& marks) const {
+  const DamageRate rate = damage_.rate();
+  if (rate == DamageRate::running_maximum || rate == DamageRate::fixed) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double change = p.strain_increment[0][i] + p.strain_increment[1][i] + p.strain_increment[2][i],
+                 trace = p.start_strain[0][i] + p.start_strain[1][i] + p.start_strain[2][i];
+    const bool noted =
+        rate == DamageRate::current ? change > 0.0 && trace + change > 0.0
+        : rate == DamageRate::maximum_any_sign
+            ? std::abs(change) > damage_.trace_of(duration) * p.start_variables[Column::max_rate][i]
+            : true;
+    if (noted) marks[i - begin] = 1.0;
+  }
 }
 
 }  // namespace vitrum

@@ -34,6 +34,7 @@ class CompositeEvolution final : public CompositeModes,
 
  private:
   using Models::damage_;
+  using Models::damage_at_once;
   using Models::damage_localisation;
   using Models::decohesion_;
   using Models::elastic_;

@@ -12,12 +12,14 @@ double CompositeClosedForm<D, Y, C>::advance_intact(CompositeState& s, const Sym
   const double strain_trace = trace(strain), start_trace = trace(s.elastic_strain);
   bool tension = start_trace > 0.0 || (start_trace == 0.0 && strain_trace > 0.0);
   double done = 0.0;
+  if constexpr (D) damage_.begin(strain_trace, duration, s.max_rate, s.mean_rate);
   // A straight path changes side once; dilatant plastic flow may push it back, a bounded number of times.
   constexpr int most_legs = 8;
   for (int i = 0; i < most_legs; ++i) {
-    if constexpr (D)
-      if (tension && strain_trace > 0.0 && duration > 0.0)
-        s.max_rate = std::max(s.max_rate, strain_trace / (3.0 * duration));
+    if constexpr (D) {
+      if (tension) damage_.grow(strain_trace, duration, s.max_rate, s.mean_rate);
+      if (tension && damage_.rate() == DamageRate::current && damage_at_once(s, done, report)) return done;
+    }
     if constexpr (Y == Yielding::drucker_prager)
       if (!tension) release_excess_shear(s, done, report);
     Leg leg{s, (1.0 - done) * strain, tension, 0.0};
@@ -70,8 +72,8 @@ auto CompositeClosedForm<D, Y, C>::state_along(const Leg& leg, double fraction) 
   s.elastic_strain += fraction * leg.strain;
   if constexpr (D)
     if (leg.tension)
-      s.crack_density =
-          std::max(s.crack_density, damage_.target(trace(s.elastic_strain) / 3.0, leg.coefficient));
+      s.crack_density = std::max(s.crack_density,
+                                 damage_.target(damage_.strain_of(trace(s.elastic_strain)), leg.coefficient));
   if constexpr (Y == Yielding::von_mises) {
     f.plastic_dissipation = flow(s, secant(leg.tension, s.crack_density), 0.0);
   } else if constexpr (Y == Yielding::drucker_prager) {
@@ -269,10 +271,10 @@ double CompositeClosedForm<D, Y, C>::damage_dissipation(const Leg& leg, const Co
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
   const double x0 = leg.start.crack_density / crack_density_limit;
   const double x1 = end.crack_density / crack_density_limit;
-  const double at_start = damage_.target(start_trace / 3.0, leg.coefficient);
+  const double at_start = damage_.target(damage_.strain_of(start_trace), leg.coefficient);
   const auto fraction_at = [&](double density) {
-    return std::clamp((3.0 * damage_.mean_strain_at(density, leg.coefficient) - start_trace) / change, 0.0,
-                      end_fraction);
+    const double at = damage_.trace_of(damage_.strain_at(density, leg.coefficient));
+    return std::clamp((at - start_trace) / change, 0.0, end_fraction);
   };
   // Growth begins where eq. 7 catches up with the crack density held so far, and ends at its cap.
   const bool grows_from_start = at_start >= leg.start.crack_density * (1.0 - tolerance::rounding);

@@ -8,6 +8,7 @@ std::shared_ptr<const Material> make_composite(const MaterialParameters& paramet
 
 /// What the models store, in order.
 std::vector<Variable> damage_variables();
+std::vector<Variable> averaged_rate_variables();
 std::vector<Variable> plasticity_variables();
 std::vector<Variable> decohesion_variables();
 

@@ -31,13 +31,15 @@ class CompositeModels {
 
   /// Calls f(variable) for what is stored of a state.
   template <class S, class F>
-  VITRUM_INLINE static void members([[maybe_unused]] S& s, [[maybe_unused]] F&& f) {
+  VITRUM_INLINE void members([[maybe_unused]] S& s, [[maybe_unused]] F&& f) const {
     if constexpr (has_damage) f(s.crack_density), f(s.max_rate);
     if constexpr (has_yield) f(s.plastic_strain);
     if constexpr (has_decohesion) {
       f(s.decohesion), f(s.opening_n), f(s.opening_t), f(s.normal);
       f(s.effective_length), f(s.cohesive_strength);
     }
+    if constexpr (has_damage)
+      if (damage_.averages_rate()) f(s.mean_rate);
   }
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   Moduli secant_moduli(const CompositeState& s) const {
@@ -70,6 +72,9 @@ class CompositeModels {
     }
     return m;
   }
+
+  // damage_at_once.hpp
+  bool damage_at_once(CompositeState& s, double fraction, PointReport& report) const;
 
   // yield_surface.hpp
   static constexpr bool surface_acts(bool tension);

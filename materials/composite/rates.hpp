@@ -31,7 +31,8 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
   if constexpr (D) {
     if (mode.damaging) {
       const double t = trace(s.elastic_strain);
-      r.crack_density = damage_.target_slope(t / 3.0, mode.coefficient) * trace(path.strain) / 3.0;
+      r.crack_density = damage_.strain_of(damage_.target_slope(damage_.strain_of(t), mode.coefficient) *
+                                          trace(path.strain));
       const double x_rate = r.crack_density / crack_density_limit;
       const Moduli slope = damage_.moduli_derivative(std::min(s.crack_density / crack_density_limit, 1.0));
       const SymmetricTensor d = deviator(s.elastic_strain);
@@ -167,7 +168,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
       if constexpr (C) g.add(CompositeGuard::localisation, -damage_localisation(s));
     } else if (intact && mode.tension && trace(path.strain) > 0.0 && s.crack_density < crack_density_limit) {
       g.add(CompositeGuard::damage,
-            (t / 3.0 - damage_.mean_strain_at(s.crack_density, mode.coefficient)) * per_size);
+            (damage_.strain_of(t) - damage_.strain_at(s.crack_density, mode.coefficient)) * per_size);
     }
   }
   const bool needs_rates = mode.flowing || (mode.decohering() && !mode.viscous);

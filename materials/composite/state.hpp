@@ -7,7 +7,7 @@ namespace vitrum {
 /// their initial value).
 struct CompositeState : LawState {
   double crack_density = 0.0;      ///< rho_d, eq. 7
-  double max_rate = 0.0;           ///< running maximum of the tensile mean strain rate, 1/s, eq. 7
+  double max_rate = 0.0;           ///< rate of eps_v that enters eq. 7 (damage.rate), 1/s
   double plastic_strain = 0.0;     ///< I, eq. 23
   double decohesion = 0.0;         ///< lambda, eq. 13; 1: separated
   double opening_n = 0.0;          ///< normal decohesion, m, eq. 14
@@ -15,6 +15,7 @@ struct CompositeState : LawState {
   PlaneVector normal{};            ///< unit normal of the decohesion plane; both components 0: the hoop plane
   double effective_length = 0.0;   ///< L_e, m, eq. 12; 0: not localised
   double cohesive_strength = 0.0;  ///< tau_np, Pa, eq. 18
+  double mean_rate = 0.0;          ///< rate of eps_v averaged over a time, 1/s
 };
 
 constexpr bool is_localised(const CompositeState& s) {

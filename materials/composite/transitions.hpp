@@ -14,6 +14,7 @@ CompositeMode CompositeEvolution<D, Y, C>::first_mode(CompositeState& s, const S
   // What it had stored is numerical error, and stays in the energy residual.
   if constexpr (C)
     if (is_separated(s)) free_faces(s);
+  if constexpr (D) damage_.begin(trace(path.strain), path.duration, s.max_rate, s.mean_rate);
   const double start = trace(s.elastic_strain);
   mode.tension = start > 0.0 || (start == 0.0 && trace(path.strain) > 0.0);
   if constexpr (C)
@@ -173,9 +174,14 @@ void CompositeEvolution<D, Y, C>::select_damage(CompositeMode& mode, CompositeSt
     mode.damaging = false;
     return;
   }
-  if (change > 0.0 && path.duration > 0.0) s.max_rate = std::max(s.max_rate, change / (3.0 * path.duration));
+  damage_.grow(change, path.duration, s.max_rate, s.mean_rate);
+  if (damage_.rate() == DamageRate::current && change > 0.0 && damage_at_once(s, fraction, report)) {
+    mode.plane = CompositeMode::Plane::held;
+    mode.damaging = false;
+    return;
+  }
   mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
-  const double target = damage_.target(trace(s.elastic_strain) / 3.0, mode.coefficient);
+  const double target = damage_.target(damage_.strain_of(trace(s.elastic_strain)), mode.coefficient);
   const bool reached = mode.damaging || target >= s.crack_density * (1.0 - tolerance::rounding);
   const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
   if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction, stress(s));

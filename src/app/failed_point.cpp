@@ -19,7 +19,7 @@ std::string failed_point(const Scene& scene, const System& system, const PointFa
     // The times of a path increase. In an instant a viscous plane does nothing; the rate of damage stays what
     // it was.
     point.time[1] = std::numeric_limits<double>::min();
-    if (auto& damage = point.material.damage; damage && damage->fixed_rate == 0.0)
+    if (auto& damage = point.material.damage; damage && damage->rate() != DamageRate::fixed)
       damage->fixed_rate =
           std::max(point.state.variables[*body.material->column("max_rate")], damage->rate_floor);
   }

@@ -17,6 +17,11 @@ inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
                                       Named{"centroids", Gradients::centroids}};
 inline constexpr std::array contact_methods{Named{"single", ContactMethod::single},
                                             Named{"bodies", ContactMethod::bodies}};
+/// Whether eps_v of eq. 7 is the volumetric strain.
+inline constexpr std::array damage_strains{Named{"mean", false}, Named{"volumetric", true}};
+inline constexpr std::array damage_rates{Named{"running-maximum", DamageRate::running_maximum},
+                                         Named{"current", DamageRate::current},
+                                         Named{"maximum-any-sign", DamageRate::maximum_any_sign}};
 /// Whether the flow is associated.
 inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
 /// Whether the search for a decohesion plane goes beyond the plane of the scene.

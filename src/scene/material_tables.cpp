@@ -20,35 +20,68 @@ Table model_table(std::string_view name, std::string_view text, const Fields<Par
   return table_of("[material.NAME." + std::string(name) + ']', text, rows);
 }
 
-const Table& fixed_rate_table() {
+/// A number that a table may give, 0 where it does not.
+Field<DamageParameters> given_number(std::string_view key, double DamageParameters::*member,
+                                     std::string_view unit, std::string_view meaning) {
+  using P = DamageParameters;
+  auto row = Field<P>::of(
+      key, {schema::Kind::number}, meaning, schema::Need::optional,
+      [member](const P& damage) -> std::optional<schema::Value> {
+        if (damage.*member > 0.0) return damage.*member;
+        return std::nullopt;
+      },
+      [member](P& damage, const schema::Value& value) { damage.*member = std::get<double>(value); });
+  row.unit = unit;
+  row.bounds = intervals::positive;
+  return row;
+}
+
+const Table& rate_table() {
   using P = DamageParameters;
   static const Table table = [] {
-    Table t = table_of<P>("`rate` of damage as a table", "",
-                          {{"fixed", &P::fixed_rate, "1/s", intervals::positive,
-                            "this rate enters eq. 7 whatever the history", required}});
-    t.in_one_line = true;
+    Table t = schema::in_one_line(table_of<P>(
+        "`rate` of damage as a table", "",
+        {given_number("fixed", &P::fixed_rate, "1/s", "this rate enters eq. 7 whatever the history"),
+         given_number("averaged", &P::averaging_time, "s",
+                      "the largest so far of the rate averaged over this time, with weights that fade "
+                      "exponentially")}));
+    t.alternatives = {{{"fixed", "averaged"}, "rate"}};
     return t;
   }();
   return table;
 }
 
-/// A text, or a table that gives the rate.
+/// A text, or a table that gives the rate or the time that it is averaged over.
 Field<DamageParameters> rate_row() {
   using P = DamageParameters;
-  static constexpr const char* running = "running-maximum";
-  const auto get = [](const P& damage) -> std::optional<schema::Value> {
-    if (damage.fixed_rate > 0.0) return std::nullopt;
-    return std::string(running);
+  const auto is_text = [](const P& damage) { return damage.rate() == damage.history; };
+  const auto get = [is_text](const P& damage) -> std::optional<schema::Value> {
+    if (!is_text(damage)) return std::nullopt;
+    return std::string(schema::name_of(damage_rates, damage.history));
   };
-  const auto set = [](P& damage, const schema::Value&) { damage.fixed_rate = 0.0; };
-  auto row = Field<P>::of("rate", {schema::Kind::text}, "strain rate that enters eq. 7",
+  const auto set = [](P& damage, const schema::Value& value) {
+    damage.history =
+        std::ranges::find(damage_rates, std::get<std::string>(value), &schema::Named<DamageRate>::name)
+            ->value;
+    damage.fixed_rate = damage.averaging_time = 0.0;
+  };
+  auto row = Field<P>::of("rate", {schema::Kind::text},
+                          "rate of eps_v that enters eq. 7: the largest so far under tension, that of the "
+                          "moment, or the largest of any sign",
                           schema::Need::optional, get, set)
-                 .expecting("\"running-maximum\" or a table {fixed = RATE}");
-  row.choices = {running};
-  row.table = &fixed_rate_table();
-  row.open = [](void* damage, const std::string&) { return damage; };
-  row.look = [](const void* damage, std::size_t n) {
-    return n == 0 && static_cast<const P*>(damage)->fixed_rate > 0.0 ? damage : nullptr;
+                 .expecting(
+                     "\"running-maximum\", \"current\", \"maximum-any-sign\", or a table {fixed = "
+                     "RATE} or {averaged = TIME}");
+  row.choices = schema::texts_of(damage_rates);
+  row.table = &rate_table();
+  row.open = [](void* owner, const std::string&) {
+    auto* damage = static_cast<P*>(owner);
+    damage->history = DamageRate::running_maximum;
+    damage->fixed_rate = damage->averaging_time = 0.0;
+    return owner;
+  };
+  row.look = [is_text](const void* damage, std::size_t n) {
+    return n == 0 && !is_text(*static_cast<const P*>(damage)) ? damage : nullptr;
   };
   return row;
 }
@@ -58,7 +91,9 @@ const Table& damage_table() {
       "damage",
       "With damage, Poisson's ratio must be below 0.3926 (the root of nu^3 + nu^2 + 2 nu = 1): above, eqs. "
       "5, 6 and 8 make the shear modulus rise with the crack density.",
-      {rate_row()});
+      {{"strain", &DamageParameters::volumetric, damage_strains,
+        "eps_v of eq. 7: the mean strain tr(e)/3, or the volumetric one, tr(e)"},
+       rate_row()});
   return table;
 }
 

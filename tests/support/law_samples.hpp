@@ -76,7 +76,8 @@ inline LawSample sample_of(const RegisteredLaw& law) {
   return {law.table, law.make(p, cell), sample.strain, sample.rate};
 }
 
-/// The minimal law, every registered law, and every composition of the composite.
+/// The minimal law, every registered law, and every composition of the composite, damage with every
+/// reading of eq. 7.
 inline std::vector<LawSample> law_samples() {
   std::vector<LawSample> all{{"minimal", minimal_material(), 4e-3}};
   for (const RegisteredLaw& law : registered_laws()) all.push_back(sample_of(law));
@@ -84,6 +85,8 @@ inline std::vector<LawSample> law_samples() {
     all.push_back({.name = named.name,
                    .material = make_material(named.parameters, cell),
                    .turns = !named.parameters.decohesion});
+  for (const NamedMaterial& named : rated_damages())
+    all.push_back({.name = named.name, .material = make_material(named.parameters, cell)});
   return all;
 }
 

@@ -67,6 +67,21 @@ struct NamedMaterial {
   MaterialParameters parameters;
 };
 
+/// Damage by every reading of eq. 7's strain and rate but the default.
+inline std::vector<NamedMaterial> rated_damages() {
+  const auto glass = [](const std::string& name, auto choose) {
+    NamedMaterial named{name, damaging_glass()};
+    choose(*named.parameters.damage);
+    return named;
+  };
+  using P = DamageParameters;
+  return {glass("volumetric", [](P& p) { p.volumetric = true; }),
+          glass("current rate", [](P& p) { p.history = DamageRate::current; }),
+          glass("rate of any sign", [](P& p) { p.history = DamageRate::maximum_any_sign; }),
+          glass("averaged rate", [](P& p) { p.averaging_time = 3.0e-8; }),
+          glass("fixed rate", [](P& p) { p.fixed_rate = 1.0e3; })};
+}
+
 /// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not.
 /// Strengths are chosen such that every model acts at strains of about 1e-3.
 inline std::vector<NamedMaterial> all_compositions() {
