@@ -83,6 +83,16 @@ class Quickstart(unittest.TestCase):
             self.assertEqual("moved or copied" in out, moved, out)
             self.assertEqual(cache.exists(), not moved)
 
+    def test_a_study_file_is_named_from_where_one_stands(self):
+        self.program(self.home / "studies/vitrum-study", "")
+        elsewhere = self.home.parent / "else where"
+        elsewhere.mkdir()
+        (elsewhere / "mine.toml").write_text("")
+        done = subprocess.run(["/bin/sh", self.home / "quickstart", "study", "mine.toml", "--quick", "--cores", "1"], cwd=elsewhere, text=True, capture_output=True,
+                              env={"PATH": str(self.tools), "HOME": "/"})
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(self.log.read_text().splitlines()[-1], f"vitrum-study {elsewhere}/mine.toml --quick --cores 1")
+
     def test_without_root_it_names_what_is_missing_and_goes_on(self):
         self.installed("catch2|libfmt-dev")
         out, calls = self.run_it("test")

@@ -31,6 +31,14 @@ class Examples(unittest.TestCase):
         self.assertGreater(attempted, 15)
 
 
+class Types(PackageTest):
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "no mypy")
+    def test_annotations_hold(self):
+        done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--check-untyped-defs", f"--cache-dir={self.folder}", "-p", "vitrum"],
+                              capture_output=True, text=True, cwd=source / "studies")
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
 class Results(PackageTest):
     @classmethod
     def setUpClass(cls):

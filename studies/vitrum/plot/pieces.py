@@ -6,7 +6,7 @@ reach_in_cells = 1.5
 
 def _neighbours(position, reach):
     """Pairs (n x 2) of points no farther apart than `reach`, by bins of that size."""
-    bins = {}
+    bins: dict[tuple[int, ...], list[int]] = {}
     for point, place in enumerate(map(tuple, np.floor(position / reach).astype(np.int64))):
         bins.setdefault(place, []).append(point)
     pairs = []
