@@ -21,9 +21,9 @@ class New(CommandLineTest):
         self.vitrum("new", name, "--out", path)
         return path
 
-    def test_all_files_are_listed_and_come_out_as_they_are(self):
+    def test_templates_are_listed_and_come_out_as_they_are(self):
         names = self.names()
-        self.assertEqual(sorted(names), sorted(path.stem for path in templates.glob("*.toml") if path.stem != "laminated"))
+        self.assertLessEqual({"impact", "drop-ball", "laminate", "pressed-disk", "bar"}, set(names))
         for name in names:
             self.assertEqual(self.vitrum("new", name).stdout, (templates / f"{name}.toml").read_text())
         self.assertEqual(self.vitrum("new").stdout, (templates / "impact.toml").read_text())
