@@ -10,6 +10,7 @@ import shutil
 
 navigation = {
     "Start": ["start/install", "start/first-run", "start/reading-a-result"],
+    "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test"],
     "How to": ["python", "report", "studies", "development"],
     "Theory": ["theory", "integrators", "verification"],
     "Reference": ["scene-reference", "materials", "result-format"],

@@ -85,10 +85,10 @@ class Reader:
 
     def shell(self, block):
         done = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], cwd=self.folder, env=self.environment, text=True, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                              capture_output=True)
         if done.returncode != 0:
-            raise Stumble(f"{block.place}: status {done.returncode}\n{done.stdout}")
-        return done.stdout
+            raise Stumble(f"{block.place}: status {done.returncode}\n{done.stdout}{done.stderr}")
+        return done.stderr + done.stdout  # apart: two streams in one pipe may cut each other's lines
 
     def python(self, block):
         printed, before, place = io.StringIO(), dict(os.environ), os.getcwd()
@@ -140,7 +140,7 @@ def test(page, folder):
 
 def pictures(page):
     """Those that the page's own blocks make."""
-    return [page.parent / name for name in re.findall(r"!\[[^]]*\]\(([^)]*pictures/pages/[^)]+)\)", page.read_text())]
+    return [page.parent / name for name in re.findall(r"!\[[^]]*\]\((\.\./pictures/pages/[^)]+)\)", page.read_text())]
 
 
 def shown_of(printed, before):

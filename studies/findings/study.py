@@ -133,7 +133,7 @@ def block_values(quick, out):
     _, events = point("glass", out / "points" / "readme.csv", path__time="[0.0, 1.0e-6]", path__strain="[[0, 0, 0, 0], [3.0e-3, 0, 0, 0]]")
     return {
         "commit": commit(), "ratio": number(checked(scene)["step_to_critical"], 2), "usf_paper": ending(steps["usf", 2e-7]), "musl_paper": ending(steps["musl", 2e-7]),
-        "residual": percent(abs(reference["residual"])), "events": "\n".join(f"    {event}" for event in events),
+        "residual": percent(abs(reference["residual"])), "events": "\n".join(events),
         "press_steps": number(pressed["integrator"]["steps"]), "press_explicit": f"{round(pressed['time'] / asked['critical_step'], -3):,.0f}",
     }
 

@@ -1,4 +1,4 @@
-"""docs/start and docs/tutorials do what they say: every code block is executed, in a folder of its own, at low resolution."""
+"""README, docs/start and docs/tutorials do what they say: every code block is executed, in a folder of its own, at low resolution."""
 import sys
 import tempfile
 import textwrap
@@ -10,7 +10,7 @@ from support import PackageTest, source
 sys.path.insert(0, str(source / "docs/site"))
 import pages  # noqa: E402
 
-followed = [*sorted((source / "docs/start").glob("*.md")), *sorted((source / "docs/tutorials").glob("*.md"))]
+followed = [source / "README.md", source / "CONTRIBUTING.md", *sorted((source / "docs/start").glob("*.md")), *sorted((source / "docs/tutorials").glob("*.md"))]
 
 
 class Pages(unittest.TestCase):
