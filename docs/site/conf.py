@@ -3,7 +3,7 @@ Debian packages of 12 and 13. (MkDocs Material of Debian 12 cannot search withou
 
     sphinx-build -c docs/site docs build/docs      (./quickstart docs installs what it needs first)
 
-`navigation` is the order of the pages, in the four kinds of Diataxis and reports. A page that is not in it is a warning, and -W makes that an error."""
+`navigation` is the order of the pages, in the four kinds of Diataxis and reports. A page that it does not name stands under "More"."""
 import pathlib
 import re
 import shutil
@@ -17,6 +17,12 @@ navigation = {
     "Reports": ["findings", "study-paper", "study-trade", "study-sensitivity", "study-stability", "performance", "performance-measurements",
                 "performance-history"],
 }
+
+docs = pathlib.Path(__file__).resolve().parents[1]
+named = {page for pages in navigation.values() for page in pages}
+more = sorted({page.relative_to(docs).with_suffix("").as_posix() for page in docs.rglob("*.md")} - named - {"index"})
+if more:
+    navigation["More"] = more
 
 project = "vitrum"
 author = copyright = "The vitrum developers"
@@ -68,6 +74,7 @@ def copy_mathjax(app, failed):
 
 
 def setup(app):
+    app.connect("env-get-outdated", lambda *_: [root_doc])  # where the navigation stands: a new page changes it, and no text of its own
     app.connect("source-read", add_navigation)
     app.connect("source-read", name_what_lies_outside)
     app.connect("build-finished", copy_mathjax)

@@ -1,4 +1,4 @@
-"""The site that `./quickstart docs` builds: no page outside the navigation, no link to nowhere, formulas typeset without a network, nothing wider than a phone."""
+"""The site that `./quickstart docs` builds: every page is in it, no link to nowhere, formulas typeset without a network, nothing wider than a phone."""
 import importlib.util
 import re
 import shutil
