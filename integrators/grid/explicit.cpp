@@ -55,6 +55,8 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::coast(system, duration);
   if (system.contact) system.contact->end_step(system);
   ++system.step_index;
+  if (system.contact && system.step_index % mpm::Contact::steps_between_looks == 0)
+    system.contact->part(system);
 }
 
 void ExplicitIntegrator::count(double duration) {

@@ -51,6 +51,7 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
 
 void GridSystem::begin_phase() {
   system_.grid.move_boundaries(system_.time);
+  if (system_.contact) system_.contact->part(system_);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
   carried_work_ = mpm::carry_held(system_).work;
   mpm::find_centroids(system_);
@@ -60,7 +61,7 @@ void GridSystem::begin_phase() {
   std::vector<mpm::CarrierPair> couplings;
   if (system_.contact) {
     system_.contact->settle(system_);
-    couplings = system_.contact->foresee(travel_ * system_.cell);
+    couplings = system_.contact->foresee(system_, travel_ * system_.cell);
   }
   stiffness_.lay_out(system_, nodes_, couplings);
   start_velocity_.resize(nodes_.size());

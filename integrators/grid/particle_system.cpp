@@ -290,7 +290,9 @@ bool ParticleSystem::commit(double t, double* y) {
   }
   const bool carried = carry();
   system_.record.kinetic = kinetic_energy();
-  return replaced || carried;
+  const bool parted = system_.contact && (system_.step_index + 1) % mpm::Contact::steps_between_looks == 0 &&
+                      system_.contact->part(system_);
+  return replaced || carried || parted;
 }
 
 /// Particles that have come to move with held nodes take their velocity; whether some have.

@@ -72,6 +72,7 @@ void warn_of_travel(const Scene& scene, const System& system, Warnings& list) {
 void warn_of_depth(const System& system, Warnings& list) {
   for (std::size_t n = 0; n < system.contact->pairs().size(); ++n) {
     const mpm::BodyPair& pair = system.contact->pairs()[n];
+    if (pair.a == pair.b) continue;  // rubble of one body is always pressed together somewhere
     const double pressed = -system.contact->history()[n].least_gap / pair.law.depth;
     if (pressed > 0.5)
       list.push_back(fmt::format(

@@ -77,7 +77,7 @@ void Simulation::write_checkpoint() {
   state_.solver = system_.constitutive_solver;
   state_.coasting.clear();
   for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
-  if (system_.contact) state_.contact = system_.contact->state();
+  if (system_.contact) state_.contact = system_.contact->state(system_);
   RunState stored = state_;
   stored.earlier_seconds = total_seconds();
   save(stored, checkpoint.state);

@@ -25,8 +25,8 @@ struct Before {
   }
 };
 
-inline bool holds(const Block& b, std::int64_t i, std::int64_t j) {
-  return b.column == block_of(i) && b.row == block_of(j);
+inline bool holds(const Block& b, std::int64_t i, std::int64_t j, std::int32_t field) {
+  return b.column == block_of(i) && b.row == block_of(j) && b.field == field;
 }
 
 /// The block of a velocity field with cell (i, j), for particles in that cell and beside it.

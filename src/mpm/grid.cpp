@@ -56,10 +56,11 @@ void Grid::find_blocks(const std::vector<Body>& bodies) {
     for (std::size_t p = 0; p < body.on_grid(); ++p, ++k) {
       const std::int64_t i = checked_cell(body.particles.position[0][p] * per_cell, body, p);
       const std::int64_t j = checked_cell(body.particles.position[1][p] * per_cell, body, p);
-      if (last < 0 || !holds(met[static_cast<std::size_t>(last)], i, j)) {
+      const std::int32_t field = body.field_of(p);
+      if (last < 0 || !holds(met[static_cast<std::size_t>(last)], i, j, field)) {
         const auto [entry, added] =
-            find_.try_emplace({block_of(i), block_of(j), body.field}, static_cast<std::int32_t>(met.size()));
-        if (added) met.push_back(block_at(i, j, body.field));
+            find_.try_emplace({block_of(i), block_of(j), field}, static_cast<std::int32_t>(met.size()));
+        if (added) met.push_back(block_at(i, j, field));
         last = entry->second;
       }
       widen(met[static_cast<std::size_t>(last)], i, j);

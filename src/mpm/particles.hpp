@@ -73,12 +73,17 @@ struct Body {
   double particle_half_size = 0.0;  ///< m, half the side of a particle's initial square (GIMP)
   std::int32_t field = 0;  ///< velocity field: bodies with the same one are welded where they share nodes
   std::optional<Coasting> coasting = std::nullopt;
+  /// Velocity fields of its particles, by identity, once it has come into pieces; empty: all have `field`.
+  std::vector<std::int32_t> fragments = {};
 
   /// The column of a variable by its name; empty where the material has none.
   const std::vector<double>& column(std::string_view variable) const {
     static const std::vector<double> none;
     const std::optional<std::size_t> k = material->column(variable);
     return k ? particles.variables[*k] : none;
+  }
+  std::int32_t field_of(std::size_t particle) const {
+    return fragments.empty() ? field : fragments[particles.identity[particle]];
   }
   /// Particles that take part in the grid.
   std::size_t on_grid() const { return coasting ? 0 : particles.size; }

@@ -46,7 +46,7 @@ void Grid::find_movers(std::size_t tile, const std::vector<Body>& bodies) {
         continue;
       }
       const std::int64_t i = cell_of(x0 * per_cell), j = cell_of(x1 * per_cell);
-      if (holds(block, i, j)) {
+      if (holds(block, i, j, block.field)) {
         moved.wider |= widen(block, i, j);
         cells = CellRange(block, per_cell);
       } else {

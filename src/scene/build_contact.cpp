@@ -67,14 +67,17 @@ double depth_between(const Scene& scene, const Body& a, const Body& b, double st
 }  // namespace
 
 void build_contact(const Scene& scene, System& system) {
-  if (scene.contact.method == ContactMethod::single || system.bodies.size() < 2) return;
+  if (scene.contact.method == ContactMethod::single) return;
+  const bool in_pieces = scene.contact.self && std::ranges::any_of(system.bodies, may_break);
+  if (system.bodies.size() < 2 && !in_pieces) return;
   std::vector<mpm::BodyPair> pairs;
   std::vector<std::vector<mpm::Patch>> patches;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     system.bodies[b].field = static_cast<std::int32_t>(b);
     patches.push_back(surface_patches(scene.bodies[b].shape, scene.geometry, system.bodies[b]));
-    for (std::size_t a = 0; a < b; ++a) {
+    for (std::size_t a = 0; a <= b; ++a) {
       const Body &one = system.bodies[a], &other = system.bodies[b];
+      if (a == b && !(in_pieces && may_break(other))) continue;
       const double stiffness = stiffness_between(scene, one, other);
       pairs.push_back({a,
                        b,

@@ -44,6 +44,10 @@ const Table& contact_table() {
         {0.0, 2.0, true, false},
         "bodies: penetration at which a surface gives way; the largest pressure is at half of it; absent: "
         "0.5, or what bears twice the pressure of the impact, if that is more, but 1 at most"},
+       {"self", &C::self,
+        "bodies: what cracks cut off a body comes off it: fragments have velocity fields of their own, fly "
+        "apart, "
+        "meet and slide as bodies do; else they share their body's field and stick where they meet"},
        {"pair", &C::pairs, pair_table(), "overrides for two bodies"}});
   return table;
 }

@@ -98,6 +98,7 @@ struct ContactDefinition {
   double friction = 0.0;   ///< may be infinite
   double stiffness = 1.0;  ///< of the two materials over a cell
   std::optional<double> depth;  ///< cells; none: from the speeds at which bodies meet
+  bool self = false;       ///< fragments of one body touch, too
   std::vector<ContactPair> pairs;
 };
 

@@ -10,6 +10,7 @@ from support import CommandLineTest, here, overrides, read_csv, read_summary
 
 slide = here / "scenes" / "slide.toml"
 rods = here / "scenes" / "rods.toml"
+impact = here / "scenes" / "impact.toml"
 
 
 class Contact(CommandLineTest):
@@ -33,6 +34,25 @@ class Contact(CommandLineTest):
             resumed = read_summary(whole)
             self.assertEqual(resumed["energy"], energy)
             self.assertEqual(resumed["contacts"], read_summary(shared)["contacts"])
+
+    def test_fragments(self):
+        """Fragments come off at the same step, with the same bits, for any threads and after an interruption."""
+        for method in ("explicit", "arkode-explicit"):
+            run = ("--set", f'integrator.method="{method}"', "--set", 'contact.method="bodies"',
+                   *overrides(contact__self="true", contact__friction=0.2, output__every=6e-6, output__checkpoint_every=6e-6, time__end=12e-6))
+            whole = self.run_scene(f"pieces-{method}", *run, "--threads", "1", scene=impact)
+            fields, summary = self.fields(whole), read_summary(whole)
+            shared = self.run_scene(f"pieces-shared-{method}", *run, "--threads", "3", scene=impact)
+            self.assertEqual(self.fields(shared), fields)
+            (whole / "summary.json").unlink()
+            self.vitrum("run", impact, "--out", whole, *run, "--resume")
+            self.assertEqual(self.fields(whole), fields)
+            resumed = read_summary(whole)
+            self.assertEqual(resumed["energy"], summary["energy"])
+            self.assertEqual(resumed["contacts"], summary["contacts"])
+            pieces = [pair for pair in summary["contacts"] if pair["bodies"] == ["plate", "plate"]]
+            self.assertEqual(len(pieces), 1)
+            self.assertEqual(pieces[0]["impulse"], [0.0, 0.0])
 
     def test_account(self):
         out = self.run_scene("out", scene=slide)

@@ -35,7 +35,10 @@ std::vector<Configuration> configurations(const System& system) {
 }
 
 Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches)
-    : pairs_(std::move(pairs)), history_(pairs_.size()), first_{0} {
+    : pairs_(std::move(pairs)),
+      history_(pairs_.size()),
+      first_{0},
+      next_field_(static_cast<std::int32_t>(system.bodies.size())) {
   for (const std::vector<Patch>& of_body : patches) {
     patches_.insert(patches_.end(), of_body.begin(), of_body.end());
     first_.push_back(patches_.size());
@@ -46,6 +49,8 @@ Contact::Contact(System& system, std::vector<BodyPair> pairs, const std::vector<
   }
   find_carriers(system);
   find_deep_particles(system);
+  if (std::ranges::any_of(pairs_, [](const BodyPair& pair) { return pair.a == pair.b; }))
+    for (const Body& body : system.bodies) fragments_.emplace_back(body);
   std::vector<double> per_mass;
   for (std::size_t body = 0; body < system.bodies.size(); ++body) find_frequencies(system, body, per_mass);
   for (const BodyPair& pair : pairs_)
@@ -129,6 +134,10 @@ void Contact::find_touches(const System& system, std::span<const Configuration> 
   gaps_.assign(pairs_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t n = 0; n < pairs_.size(); ++n) {
     const BodyPair& pair = pairs_[n];
+    if (pair.a == pair.b) {
+      find_touches_of_fragments(system, bodies, n);
+      continue;
+    }
     const std::span<const PlacedPatch> a = patches_of(pair.a), b = patches_of(pair.b);
     search_.find(places_of(pair.a), places_of(pair.b), reach(pair), [&](std::uint32_t i, std::uint32_t j) {
       const PairForce force = pair_force(a[i], b[j], pair.law);
@@ -150,33 +159,67 @@ void Contact::find_touches_of_particles(const System& system, std::span<const Co
                                         std::size_t n) {
   const BodyPair& pair = pairs_[n];
   for (const std::size_t body : {pair.a, pair.b}) {
-    const auto& position = bodies[body].position;
     std::vector<Vector>& places = particle_places_[body];
     places.resize(place_[body].size());
-    for (std::size_t k = 0; k < places.size(); ++k)
-      places[k] = {position[0][place_[body][k]], position[1][place_[body][k]]};
+    for (std::uint32_t k = 0; k < places.size(); ++k) places[k] = place_of(bodies, body, k);
   }
+  const double distance = system.bodies[pair.a].particle_half_size + system.bodies[pair.b].particle_half_size;
+  search_.find(particle_places_[pair.a], particle_places_[pair.b], distance,
+               [&](std::uint32_t i, std::uint32_t j) {
+                 if (deep_[pair.a][i] || deep_[pair.b][j])
+                   touch_as_circles(system, bodies, n, i, j, distance);
+               });
+}
+
+/// Where the faces of a body's fragments are, in their order.
+void Contact::list_faces(std::span<const Configuration> bodies, std::size_t body) {
+  particle_places_[body].clear();
+  for (const std::uint32_t face : fragments_[body].faces())
+    particle_places_[body].push_back(place_of(bodies, body, face));
+}
+
+void Contact::find_touches_of_fragments(const System& system, std::span<const Configuration> bodies,
+                                        std::size_t n) {
+  const std::size_t body = pairs_[n].a;
+  if (!fragments_[body].any()) return;
+  list_faces(bodies, body);
+  const std::span<const std::uint32_t> faces = fragments_[body].faces();
+  const std::vector<std::int32_t>& fragment = system.bodies[body].fragments;
+  const double usual = 2.0 * system.bodies[body].particle_half_size;
+  search_.find(particle_places_[body], particle_places_[body], usual, [&](std::uint32_t k, std::uint32_t l) {
+    const std::uint32_t i = faces[k], j = faces[l];
+    if (i < j && fragment[i] != fragment[j])
+      touch_as_circles(system, bodies, n, i, j, distance_of(body, i, j, usual));
+  });
+}
+
+double Contact::distance_of(std::size_t body, std::uint32_t i, std::uint32_t j, double usual) const {
+  const Rest key{static_cast<std::uint32_t>(body), i, j, 0.0};
+  const auto rest = std::ranges::lower_bound(rests_, key);
+  return rest != rests_.end() && rest->body == key.body && rest->i == i && rest->j == j ? rest->distance
+                                                                                        : usual;
+}
+
+/// Particles i of the pair's first body and j of its second as circles that touch from `distance` on.
+void Contact::touch_as_circles(const System& system, std::span<const Configuration> bodies, std::size_t n,
+                               std::uint32_t i, std::uint32_t j, double distance) {
+  const BodyPair& pair = pairs_[n];
   const Body &a = system.bodies[pair.a], &b = system.bodies[pair.b];
-  const double distance = a.particle_half_size + b.particle_half_size;
-  const double side = 2.0 * std::min(a.particle_half_size, b.particle_half_size);
   // The particle's ring at the start is in its mass.
   const auto ring_of = [&](const Body& body, std::size_t which, std::uint32_t identity) {
     const double square = 4.0 * body.particle_half_size * body.particle_half_size;
     return body.particles.mass[place_[which][identity]] / (body.material->density() * square);
   };
-  search_.find(
-      particle_places_[pair.a], particle_places_[pair.b], distance, [&](std::uint32_t i, std::uint32_t j) {
-        if (!deep_[pair.a][i] && !deep_[pair.b][j]) return;
-        const double area = side * std::min(ring_of(a, pair.a, i), ring_of(b, pair.b, j));
-        const PairForce force =
-            pair_force(particle_places_[pair.a][i], particle_places_[pair.b][j], distance, area, pair.law);
-        if (!(force.energy > 0.0)) return;
-        gaps_[n] = std::min(gaps_[n], force.gap);
-        const auto arm = [&](double size) { return Vector{size * force.normal[0], size * force.normal[1]}; };
-        const double half = 0.5 * force.gap;
-        const TouchKey key{static_cast<std::uint32_t>(n), TouchKey::none, TouchKey::none, i, j};
-        touch(bodies, {key, arm(a.particle_half_size + half), arm(-b.particle_half_size - half), {}, force});
-      });
+  const double half_a = a.particle_half_size, half_b = b.particle_half_size,
+               area = 2.0 * std::min(half_a, half_b) * std::min(ring_of(a, pair.a, i), ring_of(b, pair.b, j));
+  const PairForce force =
+      pair_force(place_of(bodies, pair.a, i), place_of(bodies, pair.b, j), distance, area, pair.law);
+  if (!(force.energy > 0.0)) return;
+  gaps_[n] = std::min(gaps_[n], force.gap);
+  const auto arm = [&](double size) { return Vector{size * force.normal[0], size * force.normal[1]}; };
+  const double from_a = (distance + force.gap) * half_a / (half_a + half_b);
+  const TouchKey key{static_cast<std::uint32_t>(n), TouchKey::none, TouchKey::none, i, j};
+  touch(bodies, {key, arm(from_a), arm(from_a - distance - force.gap), {}, force});
 }
 
 Grip Contact::grip_of(const TouchKey& key, const Spring& spring,
@@ -213,7 +256,7 @@ void Contact::touch(std::span<const Configuration> bodies, Touch&& t) {
     const auto grip = std::ranges::lower_bound(grips_, t.key, {}, &Grip::key);
     const Grip now = grip_of(t.key, {}, bodies);
     if (grip == grips_.end() || grip->key != t.key)
-      t.friction = {{0.0, t.force.grip}, 0.0, true};  // no way from anywhere yet
+      t.friction = {{0.0, t.force.grip}, 0.0, true};                    // no way from anywhere yet
     else if (grip->side_a != now.side_a || grip->side_b != now.side_b)  // a carrier has crossed the axis
       t.friction = {{0.0, t.force.grip}, grip->spring.energy(), true};
     else
@@ -222,10 +265,28 @@ void Contact::touch(std::span<const Configuration> bodies, Touch&& t) {
   touches_.push_back(std::move(t));
 }
 
-std::vector<CarrierPair> Contact::foresee(double margin) {
+void Contact::foresee_fragments(const System& system, std::size_t n, double margin,
+                                std::vector<CarrierPair>& list) {
+  const std::size_t body = pairs_[n].a;
+  list_faces(configurations(system), body);
+  const std::span<const std::uint32_t> faces = fragments_[body].faces();
+  const std::vector<std::int32_t>& fragment = system.bodies[body].fragments;
+  search_.find(particle_places_[body], particle_places_[body],
+               2.0 * (system.bodies[body].particle_half_size + margin),
+               [&](std::uint32_t k, std::uint32_t l) {
+                 const std::uint32_t i = faces[k], j = faces[l];
+                 if (i < j && fragment[i] != fragment[j]) list.push_back(carriers_of(n, i, j));
+               });
+}
+
+std::vector<CarrierPair> Contact::foresee(const System& system, double margin) {
   std::vector<CarrierPair> list;
   for (std::size_t n = 0; n < pairs_.size(); ++n) {
     const BodyPair& pair = pairs_[n];
+    if (pair.a == pair.b) {
+      foresee_fragments(system, n, margin, list);
+      continue;
+    }
     search_.find(places_of(pair.a), places_of(pair.b), reach(pair) + 2.0 * margin,
                  [&](std::uint32_t i, std::uint32_t j) {
                    list.push_back(carriers_of(n, patches_[first_[pair.a] + i].carrier,
@@ -233,7 +294,8 @@ std::vector<CarrierPair> Contact::foresee(double margin) {
                  });
   }
   for (const Touch& t : touches_)
-    if (!t.key.of_patches()) list.push_back(carriers_of(t.key.pair, t.key.carrier_a, t.key.carrier_b));
+    if (!t.key.of_patches() && pairs_[t.key.pair].a != pairs_[t.key.pair].b)
+      list.push_back(carriers_of(t.key.pair, t.key.carrier_a, t.key.carrier_b));
   return list;
 }
 
@@ -269,6 +331,34 @@ void Contact::keep(System& system, std::span<const Configuration> bodies) {
   grips_.swap(next_grips_);
   for (std::size_t n = 0; n < pairs_.size(); ++n)
     history_[n].least_gap = std::min(history_[n].least_gap, gaps_[n]);
+}
+
+bool Contact::part(System& system) {
+  bool parted = false;
+  for (const BodyPair& pair : pairs_) {
+    if (pair.a != pair.b) continue;
+    Body& body = system.bodies[pair.a];
+    const std::vector<std::int32_t> former = body.fragments;
+    if (!fragments_[pair.a].part(body, next_field_)) continue;
+    parted = true;
+    find_carriers(system);
+    const std::vector<Configuration> bodies = configurations(system);
+    list_faces(bodies, pair.a);
+    const std::span<const std::uint32_t> faces = fragments_[pair.a].faces();
+    const double usual = 2.0 * body.particle_half_size;
+    search_.find(particle_places_[pair.a], particle_places_[pair.a], usual,
+                 [&](std::uint32_t k, std::uint32_t l) {
+                   const std::uint32_t i = faces[k], j = faces[l];
+                   if (i >= j || body.fragments[i] == body.fragments[j]) return;
+                   if (!former.empty() && former[i] != former[j]) return;
+                   const Vector apart = difference(particle_places_[pair.a][l], particle_places_[pair.a][k]);
+                   if (const double distance = std::hypot(apart[0], apart[1]); distance < usual)
+                     rests_.push_back({static_cast<std::uint32_t>(pair.a), i, j, distance});
+                 });
+    std::ranges::sort(rests_);
+  }
+  if (parted) system.grid_is_stale = true, evaluated_ = false;
+  return parted;
 }
 
 void Contact::settle(const System& system) {
@@ -307,6 +397,7 @@ void Contact::begin_step(System& system, double duration) {
   unload(system);
   for (const Touch& t : touches_) {
     push(system, t);
+    if (pairs_[t.key.pair].a == pairs_[t.key.pair].b) continue;  // within the body
     const Vector friction = friction_on_b(t);
     for (std::size_t c = 0; c < 2; ++c)
       history_[t.key.pair].impulse[c] -= duration * (t.force.force[c] + friction[c]);
@@ -326,6 +417,7 @@ void Contact::load(System& system, double* rates) const {
   std::fill(rates, rates + rates_of_pair * pairs_.size(), 0.0);
   for (const Touch& t : touches_) {
     push(system, t);
+    if (pairs_[t.key.pair].a == pairs_[t.key.pair].b) continue;  // within the body
     const Vector friction = friction_on_b(t);
     for (std::size_t c = 0; c < 2; ++c)
       rates[rates_of_pair * t.key.pair + c] -= t.force.force[c] + friction[c];
@@ -340,36 +432,72 @@ void Contact::commit(System& system, std::span<const Configuration> bodies, cons
   }
 }
 
-namespace {
-constexpr std::size_t numbers_of_pair = 4, numbers_of_grip = 7;
-}
-
-std::vector<double> Contact::state() const {
+std::vector<double> Contact::state(const System& system) const {
   std::vector<double> values;
-  for (const ContactHistory& h : history_)
-    values.insert(values.end(), {h.impulse[0], h.impulse[1], h.friction_work, h.least_gap});
-  for (const auto& [key, spring, apart, turn_a, turn_b, side_a, side_b] : grips_) {
-    for (const std::uint32_t part : {key.pair, key.patch_a, key.patch_b, key.carrier_a, key.carrier_b})
-      values.push_back(static_cast<double>(part));
-    values.insert(values.end(), {spring.force, spring.stiffness});
+  const auto put = [&](const auto&... number) { (values.push_back(static_cast<double>(number)), ...); };
+  for (const ContactHistory& h : history_) put(h.impulse[0], h.impulse[1], h.friction_work, h.least_gap);
+  put(next_field_);
+  for (std::size_t body = 0; body < fragments_.size(); ++body) {
+    const std::vector<std::int32_t>& fragment = system.bodies[body].fragments;
+    const std::vector<std::uint32_t> cut = fragments_[body].cut();
+    put(cut.size(), fragment.size());
+    values.insert(values.end(), cut.begin(), cut.end());
+    values.insert(values.end(), fragment.begin(), fragment.end());
   }
+  put(rests_.size());
+  for (const Rest& rest : rests_) put(rest.body, rest.i, rest.j, rest.distance);
+  put(grips_.size());
+  for (const Grip& g : grips_)
+    put(g.key.pair, g.key.patch_a, g.key.patch_b, g.key.carrier_a, g.key.carrier_b, g.spring.force,
+        g.spring.stiffness);
   return values;
 }
 
-bool Contact::restore(const System& system, std::span<const double> state) {
-  const std::size_t of_pairs = numbers_of_pair * pairs_.size();
-  if (state.size() < of_pairs || (state.size() - of_pairs) % numbers_of_grip != 0) return false;
-  const double* next = state.data();
-  for (ContactHistory& h : history_) h = {{next[0], next[1]}, next[2], next[3]}, next += numbers_of_pair;
-  grips_.clear();
-  for (; next != state.data() + state.size(); next += numbers_of_grip) {
-    const auto number = [&](std::size_t k) { return static_cast<std::uint32_t>(next[k]); };
-    const TouchKey key{number(0), number(1), number(2), number(3), number(4)};
-    if (key.pair >= pairs_.size() || key.carrier_a >= place_[pairs_[key.pair].a].size() ||
-        key.carrier_b >= place_[pairs_[key.pair].b].size())
-      return false;
-    grips_.push_back({key, {next[5], next[6]}, {}, 0.0, 0.0, 0.0, 0.0});
+bool Contact::restore(System& system, std::span<const double> state) {
+  bool fits = true;
+  const auto take = [&] {
+    fits = fits && !state.empty();
+    if (!fits) return 0.0;
+    const double value = state.front();
+    state = state.subspan(1);
+    return value;
+  };
+  // A count or an index below a bound.
+  const auto below = [&](std::size_t bound) -> std::uint32_t {
+    const double value = take();
+    fits = fits && value >= 0.0 && value < static_cast<double>(bound);
+    return fits ? static_cast<std::uint32_t>(value) : 0;
+  };
+  for (ContactHistory& h : history_) h = {{take(), take()}, take(), take()};
+  constexpr std::size_t any = TouchKey::none;
+  next_field_ = static_cast<std::int32_t>(below(any / 2));
+  for (std::size_t body = 0; body < fragments_.size(); ++body) {
+    std::vector<std::uint32_t> cut(below(state.size() + 1));
+    const std::size_t size = below(state.size() + 1), particles = system.bodies[body].particles.size;
+    for (std::uint32_t& identity : cut) identity = below(particles);
+    std::vector<std::int32_t>& fragment = system.bodies[body].fragments;
+    fits = fits && (size == 0 || size == particles);
+    fragment.assign(fits ? size : 0, 0);
+    for (std::int32_t& field : fragment) field = static_cast<std::int32_t>(below(any / 2));
+    fragments_[body].restored(system.bodies[body], cut);
   }
+  rests_.resize(below(state.size() + 1));
+  for (Rest& rest : rests_) {
+    const std::uint32_t body = below(place_.size());
+    const std::size_t particles = place_[body].size();
+    rest = {body, below(particles), below(particles), take()};
+  }
+  grips_.resize(below(state.size() + 1));
+  for (Grip& grip : grips_) {
+    const std::uint32_t pair = below(pairs_.size()), patch_a = below(std::size_t{any} + 1),
+                        patch_b = below(std::size_t{any} + 1),
+                        a = fits ? below(place_[pairs_[pair].a].size()) : 0,
+                        b = fits ? below(place_[pairs_[pair].b].size()) : 0;
+    const double force = take(), stiffness = take();
+    grip = {{pair, patch_a, patch_b, a, b}, {force, stiffness}, {}, 0.0, 0.0, 0.0, 0.0};
+  }
+  if (!fits || !state.empty()) return false;
+  system.grid_is_stale = true;
   found_ = false;
   settle(system);
   evaluated_ = true;

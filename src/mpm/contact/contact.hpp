@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "mpm/contact/fragments.hpp"
 #include "mpm/contact/grip.hpp"
 #include "mpm/contact/pair_law.hpp"
 #include "mpm/contact/pairs.hpp"
@@ -10,9 +11,9 @@
 
 namespace vitrum::mpm {
 
-/// Two bodies that may touch.
+/// Two bodies that may touch, or the fragments of one.
 struct BodyPair {
-  std::size_t a, b;  ///< a < b
+  std::size_t a, b;  ///< a <= b; the same: its fragments
   PairStiffness law;
   double friction;  ///< Coulomb's coefficient; infinite: they stick where they are pressed together
   bool may_break;   ///< cracks may open faces that no patch stands for
@@ -38,7 +39,7 @@ struct ContactHistory {
 /// as it takes stress; and as a stress is, they are a function of the state kept last and the state tried.
 class Contact {
  public:
-  /// patches: by body.
+  /// patches: by body. Pairs of a body with itself: what cracks cut off it comes off as a fragment.
   Contact(System& system, std::vector<BodyPair> pairs, const std::vector<std::vector<Patch>>& patches);
 
   /// Before an explicit step of `duration` seconds: gives particles the forces of contact at their present
@@ -55,7 +56,7 @@ class Contact {
   static void unload(System& system);
   /// For Newton's iterations over nodes: the carriers of all patches that may touch once none has moved by
   /// more than `margin` (m) from the state evaluated.
-  std::vector<CarrierPair> foresee(double margin);
+  std::vector<CarrierPair> foresee(const System& system, double margin);
   /// Calls add(carriers, force, stretch, N/m) for all that touch: how a force along one direction changes
   /// with what the carriers are moved apart along another one. Along the normal; along the surface where it
   /// sticks; and where it slides, friction with the pressure.
@@ -75,6 +76,11 @@ class Contact {
   /// Makes the state evaluated, which is the present one, the system's, and what the rates have come to since
   /// the last time.
   void commit(System& system, std::span<const Configuration> bodies, const double* changes);
+  /// Lets fragments come off the bodies (pairs of a body with itself). Whether any have: they have velocity
+  /// fields of their own from now on, and the grid's lists are void. To be asked every `steps_between_looks`
+  /// steps, or between Lagrangian phases.
+  bool part(System& system);
+  static constexpr std::int64_t steps_between_looks = 10;
   /// Particles have been put where they are: what they stood like before is as they stand now, and no
   /// friction comes of the difference.
   void settle(const System& system);
@@ -90,9 +96,9 @@ class Contact {
   double gap(std::size_t pair) const { return gaps_[pair]; }
 
   /// What a run must know to go on: by name.
-  std::vector<double> state() const;
+  std::vector<double> state(const System& system) const;
   /// Takes up again what `state` said, particles having been restored. False: it is not this scene's.
-  bool restore(const System& system, std::span<const double> state);
+  bool restore(System& system, std::span<const double> state);
 
  private:
   struct Touch {
@@ -109,6 +115,18 @@ class Contact {
   void find_touches(const System& system, std::span<const Configuration> bodies);
   void find_touches_of_particles(const System& system, std::span<const Configuration> bodies,
                                  std::size_t pair);
+  void find_touches_of_fragments(const System& system, std::span<const Configuration> bodies,
+                                 std::size_t pair);
+  void touch_as_circles(const System& system, std::span<const Configuration> bodies, std::size_t pair,
+                        std::uint32_t i, std::uint32_t j, double distance);
+  Vector place_of(std::span<const Configuration> bodies, std::size_t body, std::uint32_t identity) const {
+    const std::size_t i = place_[body][identity];
+    return {bodies[body].position[0][i], bodies[body].position[1][i]};
+  }
+  void foresee_fragments(const System& system, std::size_t pair, double margin,
+                         std::vector<CarrierPair>& list);
+  void list_faces(std::span<const Configuration> bodies, std::size_t body);
+  double distance_of(std::size_t body, std::uint32_t i, std::uint32_t j, double usual) const;
   void touch(std::span<const Configuration> bodies, Touch&& touch);
   Grip grip_of(const TouchKey& key, const Spring& spring, std::span<const Configuration> bodies) const;
   double way(const Touch& touch, const Grip& before, const Grip& now) const;
@@ -141,9 +159,19 @@ class Contact {
   std::vector<PlacedPatch> placed_;
   std::vector<Vector> places_;                        // of patches
   std::vector<std::vector<Vector>> particle_places_;  // by body and identity, where cracks may open
-  std::vector<Touch> touches_;                        // by rising key
-  std::vector<Grip> grips_, next_grips_;              // of the state kept last, by rising key
-  std::vector<double> gaps_;                          // m, least, by pair
+  /// Particles of two fragments that were nearer to each other than circles when these came apart: they touch
+  /// from that distance on.
+  struct Rest {
+    std::uint32_t body, i, j;  // identities, i < j
+    double distance;           // m
+    auto operator<=>(const Rest&) const = default;
+  };
+  std::vector<Fragments> fragments_;      // by body; empty where none has a pair with itself
+  std::vector<Rest> rests_;               // rising
+  std::int32_t next_field_;               // for the next fragment
+  std::vector<Touch> touches_;            // by rising key
+  std::vector<Grip> grips_, next_grips_;  // of the state kept last, by rising key
+  std::vector<double> gaps_;              // m, least, by pair
   PairSearch search_;
 };
 
