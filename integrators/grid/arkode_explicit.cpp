@@ -7,6 +7,7 @@
 
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/computation_error.hpp"
+#include "mpm/loads.hpp"
 
 namespace vitrum {
 
@@ -30,7 +31,7 @@ void ArkodeExplicit::begin(const System& system, double target) {
   if (settings_.longest_step)
     require_above_rounding(*settings_.longest_step, "max_step", system.time, target);
   double* y = solver_->y();
-  particles_->begin(y);
+  particles_->begin(y, mpm::next_load_change(system));
   const double critical = particles_->stable_step(system.time, y);
   solver_->set_shortest_step(
       std::max(settings_.shortest_step.value_or(0.0), shortest_sensible_step(critical, system.time, target)));
@@ -43,8 +44,8 @@ bool ArkodeExplicit::advance(System& system, double target, StepObserver& observ
   begin(system, target);
   const std::optional<double> fixed = settings_.fixed_step;
   while (system.time < target) {
-    // No step goes over an instant at which a boundary comes to hold other nodes.
-    const double stop = std::min(target, system.grid.next_boundary_shift(system.time));
+    // No step goes over an instant at which a boundary comes to hold other nodes, or a rate jumps.
+    const double stop = std::min(target, mpm::next_load_change(system));
     if (fixed) {  // equal steps, not longer than asked for
       const double left = stop - system.time;
       solver_->set_fixed_step(left / std::max(1.0, std::ceil(left / *fixed - 1e-6)));

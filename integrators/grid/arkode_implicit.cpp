@@ -8,6 +8,7 @@
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/computation_error.hpp"
+#include "mpm/loads.hpp"
 
 namespace vitrum {
 
@@ -27,15 +28,15 @@ double longest_phase(const System& system, const RemapSettings& remap) {
   // Held nodes may carry particles that do not know of their speed.
   for (const mpm::Boundary& wall : system.grid.boundaries())
     for (std::size_t c = 0; c < 2; ++c)
-      if (wall.fixed[c]) fastest = std::max(fastest, std::abs(wall.velocity[c]));
+      if (wall.fixed[c]) fastest = std::max(fastest, wall.top_speed(c));
   return fastest > 0.0 ? std::min(remap.duration, remap.travel * system.cell / fastest) : remap.duration;
 }
 
-/// Phases up to a target, or to the next instant at which a boundary comes to hold other nodes, are of equal
-/// length, and short enough for the fastest particle.
+/// Phases up to a target, or to the next instant at which a boundary comes to hold other nodes or a
+/// rate jumps, are of equal length, and short enough for the fastest particle.
 double ArkodeImplicit::phase_end(const System& system, double target) const {
   require_above_rounding(remap_.duration, "remap", system.time, target);
-  target = std::min(target, system.grid.next_boundary_shift(system.time));
+  target = std::min(target, mpm::next_load_change(system));
   const double length = longest_phase(system, remap_);
   const double left = target - system.time;
   const double phases = std::max(1.0, std::ceil(left / length - 1e-6));

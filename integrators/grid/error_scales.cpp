@@ -18,7 +18,7 @@ ErrorScales error_scales(const System& system, const GivenScales& given) {
   }
   for (const mpm::Boundary& wall : system.grid.boundaries())
     for (std::size_t c = 0; c < 2; ++c)
-      if (wall.fixed[c]) scales.velocity = std::max(scales.velocity, std::abs(wall.velocity[c]));
+      if (wall.fixed[c]) scales.velocity = std::max(scales.velocity, wall.top_speed(c));
   if (given.strain) scales.strain = *given.strain;
   scales.velocity = std::max(scales.velocity, wave_speed * scales.strain);
   if (given.velocity) scales.velocity = *given.velocity;

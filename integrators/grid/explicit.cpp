@@ -11,7 +11,9 @@
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/loads.hpp"
 #include "mpm/reactions.hpp"
+#include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -24,12 +26,17 @@ ExplicitIntegrator::ExplicitIntegrator(StepScheme scheme, std::optional<double> 
     : scheme_(scheme), step_(step), courant_(courant) {}
 
 void ExplicitIntegrator::take_step(System& system, double duration) const {
+  mpm::set_loads_of_step(system, duration);
   system.grid.move_boundaries(system.time);
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
   system.record.external_work = mpm::carry_held(system).work;
   mpm::find_centroids(system);
   if (system.contact) system.contact->begin_step(system, duration);
+  if (system.tractions) {
+    if (!system.contact) mpm::Contact::unload(system);
+    system.tractions->load(system, system.time, mpm::configurations(system));
+  }
   mpm::StressUpdate stress(system, duration);
   const auto scatter = [&](Scatter what) {
     return mpm::scatter_pass(system, what, mpm::Nodes::moved, duration);
@@ -37,18 +44,28 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   const auto gather = [&](Gather what, mpm::StressUpdate* update = nullptr) {
     return mpm::gather_pass(system, what, duration, update);
   };
+  std::vector<mpm::Pass> until_moved, then;  // nodes have
   switch (scheme_) {
     case StepScheme::usf:
-      mpm::sweep(system, {{scatter(Scatter::momentum), gather(Gather::strain, &stress),
-                           scatter(Scatter::force), gather(Gather::velocity_and_position)}});
+      until_moved = {scatter(Scatter::momentum), gather(Gather::strain, &stress), scatter(Scatter::force)};
+      then = {gather(Gather::velocity_and_position)};
       break;
     case StepScheme::usl:
-      mpm::sweep(system, {{scatter(Scatter::momentum_and_force), gather(Gather::all_from_new, &stress)}});
+      until_moved = {scatter(Scatter::momentum_and_force)};
+      then = {gather(Gather::all_from_new, &stress)};
       break;
     case StepScheme::musl:
-      mpm::sweep(system, {{scatter(Scatter::momentum_and_force), gather(Gather::velocity_and_rescatter),
-                           gather(Gather::strain_and_position, &stress)}});
+      until_moved = {scatter(Scatter::momentum_and_force)};
+      then = {gather(Gather::velocity_and_rescatter), gather(Gather::strain_and_position, &stress)};
       break;
+  }
+  if (system.tractions) {  // whose work is that on nodes between
+    mpm::sweep(system, until_moved);
+    system.tractions->book_work(system, duration);
+    mpm::sweep(system, then);
+  } else {
+    until_moved.insert(until_moved.end(), then.begin(), then.end());
+    mpm::sweep(system, until_moved);
   }
   stress.book();
   mpm::book_reactions(system, duration);

@@ -11,6 +11,7 @@
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/carried.hpp"
 #include "mpm/centroids.hpp"
+#include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
 
 namespace vitrum {
@@ -29,7 +30,7 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
       trial_(system, mpm::Trial::Moves::nodes),
       reactions_(system),
       deformations_(system.bodies.size()),
-      motions_(system.contact ? system.bodies.size() : 0) {
+      motions_(system.contact || system.tractions ? system.bodies.size() : 0) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const std::size_t particles = system.bodies[n].particles.size;
     system.bodies[n].particles.keep_increments();
@@ -38,18 +39,25 @@ GridSystem::GridSystem(System& system, const ErrorScales& scales, double toleran
       deformations_[n].gradient[k].assign(particles, 0.0);
       targets.gradient[k] = deformations_[n].gradient[k].data();
     }
-    if (system.contact) {
+    if (!motions_.empty()) {
       Motion& m = motions_[n];
       for (auto* columns : {&m.displacement, &m.position})
         for (std::vector<double>& column : *columns) column.assign(particles, 0.0);
       m.turn.assign(particles, 0.0);
       targets.value = {m.displacement[0].data(), m.displacement[1].data()};
+      if (system.tractions) {
+        for (std::vector<double>& column : m.velocity) column.assign(particles, 0.0);
+        for (std::vector<double>& column : m.velocity_gradient) column.assign(particles, 0.0);
+        m.spin.assign(particles, 0.0);
+      }
     }
     gradients_.push_back(targets);
   }
 }
 
 void GridSystem::begin_phase() {
+  set_loads(system_.time);
+  held_at_start_ = held_committed_ = mpm::boundary_velocities(system_);
   system_.grid.move_boundaries(system_.time);
   if (system_.contact) system_.contact->part(system_);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
@@ -87,7 +95,7 @@ void GridSystem::start(double* y) {
 
 /// Displacement gradients at y. Whether any strain is not that of the last commit.
 bool GridSystem::deform(double t, const double* y) {
-  mpm::fill_field(system_, nodes_, y, t - start_time_, Field::velocity_0);
+  mpm::fill_field(system_, nodes_, y, mpm::boundary_ways(system_, start_time_, t), Field::velocity_0);
   mpm::gather_gradient(system_, gradients_);
   Flag changed;
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -126,6 +134,23 @@ std::vector<mpm::Configuration> GridSystem::places() {
 /// Whether bodies touch in that state.
 bool GridSystem::touch() {
   return system_.contact && system_.contact->evaluate(system_, places());
+}
+
+/// How particles move at y, for the power of tractions. Fills the nodal velocity.
+std::vector<mpm::ParticleMotion> GridSystem::motions(const double* y) {
+  mpm::fill_field(system_, nodes_, y + nodes_.size(), mpm::boundary_velocities(system_), Field::velocity_0);
+  std::vector<mpm::ParticleGradient> targets(motions_.size());
+  std::vector<mpm::ParticleMotion> list;
+  for (std::size_t n = 0; n < motions_.size(); ++n) {
+    Motion& m = motions_[n];
+    for (std::size_t k = 0; k < 5; ++k) targets[n].gradient[k] = m.velocity_gradient[k].data();
+    targets[n].value = {m.velocity[0].data(), m.velocity[1].data()};
+    list.push_back({{m.velocity[0].data(), m.velocity[1].data()}, m.spin.data()});
+  }
+  mpm::gather_gradient(system_, targets);
+  for (std::size_t n = 0; n < motions_.size(); ++n)
+    mpm::set_spins(system_.bodies[n].particles, targets[n], motions_[n].spin);
+  return list;
 }
 
 /// Strain since the last commit, in the frame of the committed state. The spin takes the end of the increment
@@ -182,11 +207,46 @@ void GridSystem::try_stress(double t, bool changed) {
   }
 }
 
+void GridSystem::set_loads(double t) {
+  mpm::set_loads(system_, t, t, mpm::Accelerations::none);
+}
+
+/// Held nodes whose velocity varies take their particles along at the end of the phase. What that takes, of
+/// kinetic energy and of impulse, is booked here. Returns the kinetic energy gained since the start.
+double GridSystem::book_driven(double t) {
+  if (!mpm::drives(system_)) return 0.0;
+  set_loads(t);
+  const mpm::OfBoundaries held = mpm::boundary_velocities(system_);
+  const double* mass = system_.grid.field(Field::mass);
+  double gained = 0.0, work = 0.0;
+  for (std::size_t block = 0; block < system_.grid.blocks().size(); ++block) {
+    if (!system_.grid.blocks()[block].constrained) continue;
+    for (std::size_t n = block * mpm::block_nodes; n < (block + 1) * mpm::block_nodes; ++n)
+      for (std::size_t c = 0; c < 2; ++c) {
+        const std::int16_t by = system_.grid.constraint(c, n);
+        if (by < 0) continue;
+        const auto k = static_cast<std::size_t>(by);
+        const double now = held[k][c], before = held_committed_[k][c], first = held_at_start_[k][c];
+        gained += 0.5 * mass[n] * (now - first) * (now + first);
+        work += 0.5 * mass[n] * (now - before) * (now + before);
+        system_.record.impulses[2 * k + c] += mass[n] * (now - before);
+      }
+  }
+  held_committed_ = held;
+  system_.record.external_work += work;
+  return gained;
+}
+
 bool GridSystem::rates(double t, const double* y, double* rates) {
+  set_loads(t);
   const std::size_t n = nodes_.size();
   const bool changed = deform(t, y);
   std::fill(rates + 2 * n, rates + size(), 0.0);
-  if (touch()) system_.contact->load(system_, rates + 2 * n + (works_ ? 1 : 0));
+  const bool touching = touch();
+  std::vector<mpm::ParticleMotion> motion;
+  if (system_.tractions) motion = motions(y);
+  if (touching) system_.contact->load(system_, rates + 2 * n + (works_ ? 1 : 0));
+  if (system_.tractions) system_.tractions->load(system_, t, places());
   {
     const mpm::Trial::Scope scope(system_, trial_);
     set_increments(false);
@@ -194,8 +254,9 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
     mpm::scatter(system_, mpm::Scatter::force);
   }
   mpm::Contact::unload(system_);
-  if (works_) mpm::fill_field(system_, nodes_, y + n, 1.0, Field::velocity_0);
-  const double power = mpm::accelerate(system_);
+  if (works_) mpm::fill_field(system_, nodes_, y + n, mpm::boundary_velocities(system_), Field::velocity_0);
+  double power = mpm::accelerate(system_);
+  if (system_.tractions) power += system_.tractions->power(motion);
   reactions_.rates(system_, rates + size());
   std::copy(y + n, y + 2 * n, rates);
   mpm::read_field(system_, nodes_, Field::acceleration_0, rates + n);
@@ -215,6 +276,12 @@ bool GridSystem::linearise(double t, const double* y) {
     system_.contact->linearise(
         [&](const mpm::CarrierPair& pair, const mpm::Vector& force, const mpm::Vector& stretch,
             double stiffness) { stiffness_.add(pair, force, stretch, stiffness, stiffness_values_); });
+  if (system_.tractions) {
+    system_.tractions->load(system_, t, places());
+    mpm::Contact::unload(system_);
+    if (!system_.tractions->by_turn().empty())
+      stiffness_.add_followers(system_, nodes_, system_.tractions->by_turn(), stiffness_values_);
+  }
   double sum = 0.0;
   for (const double k : stiffness_values_) sum += k;
   return std::isfinite(sum);
@@ -283,32 +350,35 @@ void GridSystem::commit(double t, const double* y) {
   double gained = 0.0;
   for (std::size_t k = 0; k < n; ++k)
     gained += 0.5 * nodes_.mass[k] * (y[n + k] - start_velocity_[k]) * (y[n + k] + start_velocity_[k]);
-  system_.record.kinetic = start_kinetic_ + gained;
   system_.record.external_work = std::exchange(carried_work_, 0.0);
+  system_.record.kinetic = start_kinetic_ + gained + book_driven(t);
   changes_.resize(tail_);
   for (std::size_t k = 0; k < tail_; ++k)
     changes_[k] = y[2 * n + k] - std::exchange(committed_tail_[k], y[2 * n + k]);
   if (works_) system_.record.external_work += changes_.front();
   reactions_.commit(system_, y + size());
   system_.record.particles_moved = false;
-  if (system_.contact) {
+  if (!motions_.empty()) {
     const std::vector<mpm::Configuration> bodies = places();
-    system_.contact->evaluate(system_, bodies);
-    system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
+    if (system_.contact) {
+      system_.contact->evaluate(system_, bodies);
+      system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
+    }
   }
 }
 
 double GridSystem::end_phase(const double* y) {
   const std::size_t n = nodes_.size();
   const double on_grid = system_.record.kinetic;
-  mpm::fill_field(system_, nodes_, start_velocity_.data(), 1.0, Field::velocity_0);
-  mpm::fill_field(system_, nodes_, y + n, 1.0, Field::new_velocity_0);
+  mpm::fill_field(system_, nodes_, start_velocity_.data(), held_at_start_, Field::velocity_0);
+  mpm::fill_field(system_, nodes_, y + n, held_committed_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
   for (std::size_t body = 0; body < motions_.size(); ++body)
     system_.bodies[body].particles.turn = motions_[body].turn;
   for (std::size_t body = 0; system_.between_centroids && body < system_.bodies.size(); ++body)
     system_.bodies[body].particles.spin_increment = deformations_[body].committed_turn;  // particles turn so
-  mpm::fill_field(system_, nodes_, y, committed_time_ - start_time_, Field::new_velocity_0);
+  mpm::fill_field(system_, nodes_, y, mpm::boundary_ways(system_, start_time_, committed_time_),
+                  Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::position, 1.0);
   system_.record.particles_moved = true;
   return on_grid - system_.record.kinetic;

@@ -8,9 +8,11 @@
 #include "integrators/sundials/ark_system.hpp"
 #include "mpm/contact/contact.hpp"
 #include "mpm/finite_strain.hpp"
+#include "mpm/loads.hpp"
 #include "mpm/nodal_unknowns.hpp"
 #include "mpm/reactions.hpp"
 #include "mpm/stiffness.hpp"
+#include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/trial.hpp"
 
@@ -79,14 +81,22 @@ class GridSystem final : public sundials::ReducibleSystem {
     TensorColumns committed_strain;
     std::vector<double> committed_turn;
   };
-  /// Where the particles are while a phase goes on; only where bodies have contact.
+  /// Where the particles are while a phase goes on, and how they move; only where bodies have contact or
+  /// tractions.
   struct Motion {
     std::array<std::vector<double>, 2> displacement, position;
     std::vector<double> turn;
+    // Only where there are tractions:
+    std::array<std::vector<double>, 2> velocity;
+    std::array<std::vector<double>, 5> velocity_gradient;
+    std::vector<double> spin;
   };
+  void set_loads(double t);
+  double book_driven(double t);
   bool deform(double t, const double* y);
   std::vector<mpm::Configuration> places();
   bool touch();
+  std::vector<mpm::ParticleMotion> motions(const double* y);
   void set_increments(bool as_committed);
   void try_stress(double t, bool changed);
   double weight_of_mass(std::size_t unknown) const;
@@ -109,6 +119,8 @@ class GridSystem final : public sundials::ReducibleSystem {
   std::vector<Motion> motions_;                   ///< by body
   std::vector<double> committed_tail_, changes_;
   std::vector<double> start_velocity_;  ///< by node unknown
+  /// Velocities of boundaries when the phase began, and at the last commit.
+  mpm::OfBoundaries held_at_start_, held_committed_;
   double start_time_ = 0.0, committed_time_ = 0.0;
   double carried_work_ = 0.0;  ///< done when the phase began, not booked yet
   double start_kinetic_ = 0.0, mean_mass_ = 0.0, deformation_ = 0.0;

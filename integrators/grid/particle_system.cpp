@@ -13,6 +13,7 @@
 #include "mpm/carried.hpp"
 #include "mpm/centroids.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
 
@@ -44,8 +45,9 @@ ParticleSystem::ParticleSystem(System& system, const ErrorScales& scales, double
   if (works_) ++size_;
   if (system.contact) {
     size_ += mpm::Contact::rates_of_pair * system.contact->pairs().size();
-    for (const Body& body : system.bodies) turned_.push_back({body.particles.turn, body.particles.mirrored});
   }
+  if (system.contact || system.tractions)
+    for (const Body& body : system.bodies) turned_.push_back({body.particles.turn, body.particles.mirrored});
   of_parts_.resize(parts_.size());
 }
 
@@ -56,12 +58,14 @@ TensorPointers<const double> ParticleSystem::strain_arrays(std::size_t body, con
   return {first, first + n, start_[body].no_strain.data(), first + 2 * n};
 }
 
-void ParticleSystem::begin(double* y) {
+void ParticleSystem::begin(double* y, double load_change) {
+  load_change_ = load_change;
   // Always, so that the order of the unknowns follows from the positions, not from the history.
   system_.grid_is_stale = true;
+  set_loads(system_.time);
   system_.grid.move_boundaries(system_.time);
   mpm::refresh_grid(system_, mpm::Storage::sorted);
-  carried_work_ = mpm::carry_held(system_).work;
+  carried_work_ = mpm::carry_held(system_, carrying_slack()).work;
   order_parts();
   std::fill(y, y + size_, 0.0);
   reactions_.begin(y + size_);
@@ -76,6 +80,15 @@ void ParticleSystem::begin(double* y) {
   for (std::vector<double>& norms : last_strain_) std::fill(norms.begin(), norms.end(), 0.0);
   committed_time_ = system_.time;
   committed_tail_.assign(size_ - tail_, 0.0);
+}
+
+void ParticleSystem::set_loads(double t) {
+  mpm::set_loads(system_, t, load_change_, mpm::Accelerations::taken);
+}
+
+/// What a particle may differ by from nodes whose velocity varies.
+double ParticleSystem::carrying_slack() const {
+  return tolerance_ * scales_.velocity;
 }
 
 /// Positions and velocities of the trial in place. Particles beyond the axis are represented by their images.
@@ -175,6 +188,7 @@ void ParticleSystem::try_stress(double t, bool changed) {
 }
 
 bool ParticleSystem::rates(double t, const double* y, double* rates) {
+  set_loads(t);
   const mpm::Trial::Scope scope(system_, trial_);
   load(y);
   mpm::refresh_grid_for_positions(system_);
@@ -186,7 +200,12 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
       shear = -shear;
     }
   std::fill(rates + tail_, rates + size_, 0.0);
-  if (touch(y)) system_.contact->load(system_, rates + tail_ + (works_ ? 1 : 0));
+  if (!turned_.empty()) {
+    const std::vector<mpm::Configuration> bodies = places(y);
+    if (system_.contact && system_.contact->evaluate(system_, bodies))
+      system_.contact->load(system_, rates + tail_ + (works_ ? 1 : 0));
+    if (system_.tractions) system_.tractions->load(system_, t, bodies);
+  }
   mpm::scatter(system_, mpm::Scatter::momentum_and_force);
   mpm::Contact::unload(system_);
   mpm::project_velocities(system_);
@@ -202,18 +221,24 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
     r.spin = at(turn());
     r.turn = y + place(n, turn());
   }
-  const double power = mpm::accelerate(system_);
+  double power = mpm::accelerate(system_);
   reactions_.rates(system_, rates + size_);
   mpm::gather_rates(system_, targets);
+  if (system_.tractions) power += system_.tractions->power(motions(targets));
   mirror_rates(y, rates);
   if (works_) rates[tail_] = power;
   not_finite_ = is_finite(rates) ? std::nullopt : first_not_finite(rates, size_);
   return !not_finite_;
 }
 
-/// Whether bodies touch in the trial in place.
-bool ParticleSystem::touch(const double* y) {
-  if (!system_.contact) return false;
+std::vector<mpm::ParticleMotion> ParticleSystem::motions(std::span<const mpm::ParticleRates> rates) {
+  std::vector<mpm::ParticleMotion> motion;
+  for (const mpm::ParticleRates& r : rates) motion.push_back({{r.position[0], r.position[1]}, r.spin});
+  return motion;
+}
+
+/// Where the surfaces of bodies are in the trial in place.
+std::vector<mpm::Configuration> ParticleSystem::places(const double* y) {
   std::vector<mpm::Configuration> bodies = mpm::configurations(system_);
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const Particles& p = system_.bodies[n].particles;
@@ -224,7 +249,7 @@ bool ParticleSystem::touch(const double* y) {
     for (const std::size_t i : mirrored_[n]) turned[i] = -turned[i], side[i] = -side[i];
     bodies[n].turn = turned.data(), bodies[n].mirrored = side.data();
   }
-  return system_.contact->evaluate(system_, bodies);
+  return bodies;
 }
 
 /// Whether all values are finite.
@@ -253,6 +278,7 @@ void ParticleSystem::mirror_rates(const double* y, double* rates) const {
 
 bool ParticleSystem::commit(double t, double* y) {
   const double duration = t - committed_time_;
+  set_loads(t);
   load(y);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
     for (const std::size_t i : mirrored_[n]) {  // reflected below, after the increment
@@ -269,7 +295,7 @@ bool ParticleSystem::commit(double t, double* y) {
     const double* w = y + place(n, turn());
     std::copy(w + begin, w + end, start_[n].turn.data() + begin);
     const auto& change = system_.bodies[n].particles.strain_increment;
-    if (system_.contact)
+    if (!turned_.empty())
       for (std::size_t i = begin; i < end; ++i)
         system_.bodies[n].particles.turn[i] += system_.bodies[n].particles.spin_increment[i];
     for (std::size_t i = begin; i < end; ++i)
@@ -299,7 +325,7 @@ bool ParticleSystem::commit(double t, double* y) {
 bool ParticleSystem::carry() {
   if (system_.grid.boundaries().empty()) return false;
   mpm::refresh_grid_for_positions(system_);
-  const mpm::Carried carried = mpm::carry_held(system_);
+  const mpm::Carried carried = mpm::carry_held(system_, carrying_slack());
   system_.record.external_work += carried.work;
   return carried.changed;
 }

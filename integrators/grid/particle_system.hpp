@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/ark_system.hpp"
 #include "mpm/reactions.hpp"
+#include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/trial.hpp"
 
@@ -41,7 +43,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   void for_ranges(RangeTask task, void* context) const override;
 
   /// Starts from the system's particles and time.
-  void begin(double* y);
+  /// load_change: s, no load's rate jumps before.
+  void begin(double* y, double load_change = std::numeric_limits<double>::infinity());
   /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a
   /// particle has crossed the axis and was replaced by its image, or is carried by held nodes from now on;
   /// the solver must start anew, from `begin`.
@@ -80,10 +83,13 @@ class ParticleSystem final : public sundials::ArkSystem {
   }
   void order_parts();
   bool is_finite(const double* values) const;
+  void set_loads(double t);
+  double carrying_slack() const;
   void load(const double* y);
   bool set_increments(const double* y);
   void try_stress(double t, bool changed);
-  bool touch(const double* y);
+  std::vector<mpm::Configuration> places(const double* y);
+  static std::vector<mpm::ParticleMotion> motions(std::span<const mpm::ParticleRates> rates);
   void mirror_rates(const double* y, double* rates) const;
   double kinetic_energy();
   bool reflect(double* y);
@@ -110,11 +116,12 @@ class ParticleSystem final : public sundials::ArkSystem {
   std::vector<std::vector<std::size_t>> mirrored_;  ///< by body: particles of the trial beyond the axis
   std::vector<std::vector<double>>
       last_strain_;  ///< by body: norm of each particle's strain in the last step
-  /// By body, where bodies have contact: turn since the start, and side, of the state tried.
+  /// By body, where bodies have contact or tractions: turn since the start, and side, of the state tried.
   std::vector<std::array<std::vector<double>, 2>> turned_;
   std::vector<double> committed_tail_, changes_;
   double committed_time_ = 0.0;
   bool contact_limits_ = false;
+  double load_change_ = 0.0;   ///< s, the next that is known
   double carried_work_ = 0.0;  ///< done at `begin`, not booked yet
 };
 

@@ -11,13 +11,14 @@
 #include "app/encounters.hpp"
 #include "app/machine.hpp"
 #include "app/messages.hpp"
+#include "app/stress_balance.hpp"
 #include "app/warnings.hpp"
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/error_scales.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/build_system.hpp"
 #include "scene/choices.hpp"
-#include "integrators/grid/grid_method.hpp"
 #include "scene/input_text.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/shape_measures.hpp"
@@ -51,6 +52,9 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
         {"exact_mass", body.material->density() * whole * (system.axisymmetric ? exact.moment : exact.area)},
         {"material", body.material->parameters().name},
         {"wave_speed", body.material->wave_speed()}};
+    if (const auto balance = stress_balance(system, body))
+      bodies[body.name]["stress"] = {
+          {"largest", balance->largest}, {"force", balance->force}, {"moment", balance->moment}};
   }
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   const std::optional<double> step = planned_step(scene.integrator, critical);
@@ -89,6 +93,14 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
         name, body["particles"].get<std::size_t>(), body["mass"].get<double>(), unit,
         body["exact_mass"].get<double>(), unit, body["material"].get<std::string>(),
         body["wave_speed"].get<double>());
+  for (const auto& [name, body] : facts["bodies"].items())
+    if (body.contains("stress"))
+      text += fmt::format(
+          "# body '{}': initial stress up to {:.4g} Pa; a mean section of it carries a force of {:.3g} N/m "
+          "and a moment "
+          "of {:.3g} N, in equilibrium without loads none\n",
+          name, body["stress"]["largest"].get<double>(), body["stress"]["force"].get<double>(),
+          body["stress"]["moment"].get<double>());
   text += fmt::format("# {} particles; a run takes about {} of memory ({} available) and {} of disk space\n",
                       system.particle_count(), bytes_text(size.memory), bytes_text(available_memory()),
                       bytes_text(disk_space_of(scene, system, true)));
@@ -130,7 +142,9 @@ int check_scene(const CheckOptions& options) {
   const Scene scene = parse_scene(input.text, input.name, options.overrides);
   const SceneSize size = size_of(scene);
   require_memory(scene, size);
-  const System system = build_system(scene, 1);
+  Scene as_given = scene;  // not relaxed
+  for (BodyDefinition& body : as_given.bodies) body.relax = false;
+  const System system = build_system(as_given, 1);
   const int threads = thread_count(scene, system, available_threads());
   output::select_fields(scene, output::materials_of(system.bodies));  // throws InputError
   const Work work = work_of(scene, system, threads);

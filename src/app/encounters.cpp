@@ -83,12 +83,26 @@ Box swept(Box box, const Vector2& velocity, double duration) {
   return box;
 }
 
+bool has_gravity(const Scene& scene) {
+  return scene.gravity != Vector2{0.0, 0.0} || scene.varies("gravity");
+}
+
+/// Whether a body's velocity varies over place, or a boundary's over time.
+bool varies(const Scene& scene, const BodyDefinition& body) {
+  return scene.varies(fmt::format("body.{}", &body - scene.bodies.data()));
+}
+bool varies(const Scene& scene, const BoundaryDefinition& wall) {
+  return scene.varies(fmt::format("boundary.{}", &wall - scene.boundaries.data()));
+}
+
 /// Whether a body only flies: nothing but other bodies and boundaries changes its motion.
 bool only_flies(const Scene& scene, const BodyDefinition& body) {
-  const bool still = body.velocity == Vector2{0.0, 0.0}, free = scene.gravity == Vector2{0.0, 0.0};
+  const bool still = body.velocity == Vector2{0.0, 0.0}, free = !has_gravity(scene);
   const bool rigid =
       body.velocity_gradient == std::array<Vector2, 2>{} && body.stress == std::array<double, 4>{};
-  return !still && free && rigid && !(scene.geometry == Geometry::axisymmetric && body.velocity[0] != 0.0);
+  return !still && free && rigid && !varies(scene, body) &&
+         std::ranges::find(scene.tractions, body.name, &TractionDefinition::body) == scene.tractions.end() &&
+         !(scene.geometry == Geometry::axisymmetric && body.velocity[0] != 0.0);
 }
 
 void warn_of_tori(const Scene& scene, Warnings& list) {
@@ -107,11 +121,16 @@ void warn_of_tori(const Scene& scene, Warnings& list) {
   }
 }
 
+constexpr Box anywhere{{-intervals::infinite, -intervals::infinite},
+                       {intervals::infinite, intervals::infinite}};
+
 /// What a body or a boundary sweeps over until the end.
 Box way_of(const Scene& scene, const BodyDefinition& body) {
+  if (varies(scene, body)) return anywhere;
   return swept(bounds(body.shape), body.velocity, scene.end - scene.start);
 }
 Box way_of(const Scene& scene, const BoundaryDefinition& wall) {
+  if (wall.moves && varies(scene, wall)) return anywhere;
   return wall.moves ? swept(wall.box, wall.velocity, scene.end - scene.start) : wall.box;
 }
 
@@ -139,7 +158,7 @@ void warn_of_misses(const Scene& scene, Warnings& list) {
 /// Boundaries that no body is at, or comes to as it starts (what it does later, nobody knows: gravity and
 /// bodies that stretch or turn are left out).
 void warn_of_idle_boundaries(const Scene& scene, Warnings& list) {
-  if (scene.gravity != Vector2{0.0, 0.0}) return;
+  if (has_gravity(scene)) return;
   for (std::size_t n = 0; n < scene.boundaries.size(); ++n) {
     const BoundaryDefinition& wall = scene.boundaries[n];
     const Box way = grown(way_of(scene, wall), 2.0 * scene.cell);
@@ -175,7 +194,7 @@ void warn_of_joined(const Scene& scene, const System& system, Warnings& list) {
 void warn_of_welds(const Scene& scene, Warnings& list) {
   if (scene.contact.stated) return;
   const auto can_meet = [&](const BodyDefinition& a, const BodyDefinition& b) {
-    return scene.gravity != Vector2{0.0, 0.0} || a.velocity_gradient != std::array<Vector2, 2>{} ||
+    return has_gravity(scene) || a.velocity_gradient != std::array<Vector2, 2>{} ||
            b.velocity_gradient != std::array<Vector2, 2>{} ||
            overlap(grown(way_of(scene, a), 2.0 * scene.cell), way_of(scene, b));
   };

@@ -27,8 +27,8 @@ double speed_between(const Vector2& a, const Vector2& b) {
 }  // namespace
 
 void warn_of_motion(const Scene& scene, const System& system, Warnings& list) {
-  if (scene.gravity == Vector2{0.0, 0.0} && std::ranges::all_of(scene.bodies, rests) &&
-      std::ranges::none_of(scene.boundaries, is_driven))
+  if (scene.functions.empty() && scene.tractions.empty() && scene.gravity == Vector2{0.0, 0.0} &&
+      std::ranges::all_of(scene.bodies, rests) && std::ranges::none_of(scene.boundaries, is_driven))
     list.push_back(
         fmt::format("{}: nothing moves in this scene: no body has a velocity or a stress, no boundary a "
                     "velocity, and there is no gravity",

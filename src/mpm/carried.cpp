@@ -1,5 +1,7 @@
 #include "mpm/carried.hpp"
 
+#include <cmath>
+
 #include "mpm/reactions.hpp"
 #include "mpm/stencil.hpp"
 
@@ -11,6 +13,7 @@ struct Held {
   bool held;
   double velocity;  ///< m/s
   std::int16_t by;
+  bool driven;  ///< the velocity varies
 };
 
 /// One component of the nodes of a tile.
@@ -22,15 +25,16 @@ class HeldNodes {
         grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])],
         [&](std::size_t n, Held& node) {
           const std::int16_t by = grid.constraint(component, n);
-          node = {by != Constraint::free,
-                  by >= 0 ? grid.boundaries()[static_cast<std::size_t>(by)].velocity[component] : 0.0, by};
+          const Boundary* wall = by >= 0 ? &grid.boundaries()[static_cast<std::size_t>(by)] : nullptr;
+          node = {by != Constraint::free, wall != nullptr ? wall->velocity[component] : 0.0, by,
+                  wall != nullptr && wall->drive[component] != nullptr};
         },
         nodes_);
     const std::span<const Image> images = grid.images(tile);
     for (std::size_t k = images.size(); k-- > 0;) {
       const Held& of = nodes_[images[k].node];
       nodes_[images[k].entry] = {of.held, images[k].component == component ? -of.velocity : of.velocity,
-                                 of.by};
+                                 of.by, of.driven};
     }
   }
   const Held& operator[](std::size_t entry) const { return nodes_[entry]; }
@@ -42,9 +46,9 @@ class HeldNodes {
 /// The velocity of the k-th particle where all its nodes are held; `otherwise` where they are not.
 template <ShapeKind kind>
 double carried_velocity(const Stencils<kind>& at, std::size_t k, const HeldNodes<kind>& nodes,
-                        double otherwise) {
+                        double otherwise, double slack) {
   double sum = 0.0, first = 0.0;
-  bool any = false, same = true;
+  bool any = false, same = true, driven = false;
   for (std::size_t b = 0; b < at.count; ++b)
     for (std::size_t a = 0; a < at.count; ++a) {
       const double N = at.value(0, a, k) * at.value(1, b, k);
@@ -52,10 +56,11 @@ double carried_velocity(const Stencils<kind>& at, std::size_t k, const HeldNodes
       const Held& node = nodes[at.entry(k) + b * tile_columns + a];
       if (!node.held) return otherwise;
       if (!any) first = node.velocity;
-      any = true, same = same && node.velocity == first;
+      any = true, same = same && node.velocity == first, driven = driven || node.driven;
       sum += N * node.velocity;
     }
-  return same ? first : sum;  // sum N is 1 but for rounding, which would change at every step
+  const double carried = same ? first : sum;  // sum N is 1 but for rounding, which would change at every step
+  return driven && std::abs(carried - otherwise) <= slack ? otherwise : carried;
 }
 
 /// Gives the boundaries that hold the k-th particle's nodes their parts of an impulse on it.
@@ -71,7 +76,7 @@ void share_impulse(const Stencils<kind>& at, std::size_t k, const HeldNodes<kind
 
 /// impulses: by boundary, added to.
 template <ShapeKind kind>
-Carried carry_tile(System& system, std::size_t tile, double* impulses) {
+Carried carry_tile(System& system, std::size_t tile, double slack, double* impulses) {
   const Grid& grid = system.grid;
   const Block& block = grid.blocks()[static_cast<std::size_t>(grid.tiles()[tile])];
   const HeldNodes<kind> held[2] = {{grid, tile, 0}, {grid, tile, 1}};
@@ -88,7 +93,7 @@ Carried carry_tile(System& system, std::size_t tile, double* impulses) {
           const std::size_t i = chunk.place(k);
           double& velocity = p.velocity[c][i];
           const double old = velocity;
-          velocity = carried_velocity<kind>(at, k, held[c], old);
+          velocity = carried_velocity<kind>(at, k, held[c], old, slack);
           if (velocity == old) continue;
           carried.changed = true;
           carried.work += 0.5 * p.mass[i] * (velocity * velocity - old * old);
@@ -101,7 +106,7 @@ Carried carry_tile(System& system, std::size_t tile, double* impulses) {
 
 }  // namespace
 
-Carried carry_held(System& system) {
+Carried carry_held(System& system, double slack) {
   const std::size_t tiles = system.grid.tiles().size();
   bool some = false;
   for (std::size_t tile = 0; tile < tiles && !some; ++tile) some = system.grid.may_carry(tile);
@@ -112,7 +117,7 @@ Carried carry_held(System& system) {
   dispatch(system.grid, [&]<ShapeKind kind, bool>() {
     system.team->for_each_chunk(tiles, [&](std::size_t tile) {
       if (system.grid.may_carry(tile))
-        parts[tile] = carry_tile<kind>(system, tile, impulses.data() + tile * count);
+        parts[tile] = carry_tile<kind>(system, tile, slack, impulses.data() + tile * count);
     });
   });
   Carried all;

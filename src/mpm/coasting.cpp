@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mpm/blocks.hpp"
+#include "mpm/loads.hpp"
+#include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -44,7 +46,9 @@ bool may_coast(const System& system, const Body& body) {
   for (const std::vector<double>& x : p.position)
     if (!std::all_of(x.begin(), x.end(), [&](double v) { return std::abs(v) < farthest * system.cell; }))
       return false;
-  if (p.size == 0 || system.gravity[0] != 0.0 || system.gravity[1] != 0.0) return false;
+  if (p.size == 0 || has_gravity(system)) return false;
+  if (system.tractions && system.tractions->act_on(static_cast<std::size_t>(&body - system.bodies.data())))
+    return false;
   for (std::size_t k = 0; k < 2; ++k)
     if (!std::isfinite(p.velocity[k][0]) || !are_uniform(p.velocity[k], p.velocity[k][0])) return false;
   if (system.axisymmetric && p.velocity[0][0] != 0.0) return false;  // hoops would stretch
@@ -76,7 +80,7 @@ bool meets_boundary(const System& system, const Coasting& body) {
     bool differs = false, near = true;
     for (std::size_t k = 0; k < 2; ++k) {
       const double gone = system.grid.shift(n, k) * cell;
-      differs = differs || (wall.fixed[k] && wall.velocity[k] != body.velocity[k]);
+      differs = differs || (wall.fixed[k] && (wall.drive[k] || wall.velocity[k] != body.velocity[k]));
       near = near && wall.min[k] + gone <= body.highest[k] + reach * cell &&
              wall.max[k] + gone >= body.lowest[k] - reach * cell;
     }

@@ -65,7 +65,7 @@ void Grid::hold(std::size_t component, std::size_t node, std::int16_t by) {
   if (holder >= 0) {
     const Boundary &a = boundaries_[static_cast<std::size_t>(holder)],
                    &b = boundaries_[static_cast<std::size_t>(by)];
-    if (a.priority == b.priority && a.velocity[component] != b.velocity[component])
+    if (a.priority == b.priority && !a.drives_as(b, component))
       throw ComputationError(
           fmt::format("boundaries '{}' and '{}' have met: they hold the same nodes at different velocities "
                       "({:g} and {:g} m/s); give one of them a higher 'priority'",

@@ -94,7 +94,7 @@ void project_momenta(const Pass& pass, std::size_t block) {
                    });
   alignas(64) double p0[block_nodes], p1[block_nodes];
   for (int node = 0; node < block_nodes; ++node) p0[node] = sums[node][0], p1[node] = sums[node][1];
-  project_block(grid, block, {p0, p1});
+  project_block(grid, block, {p0, p1}, true);
 }
 
 void book_kinetic_energy(const Pass& pass) {

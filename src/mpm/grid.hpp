@@ -195,6 +195,7 @@ class Grid {
     return constraints_[component][node];
   }
   const std::vector<Boundary>& boundaries() const { return boundaries_; }
+  std::vector<Boundary>& boundaries() { return boundaries_; }
   /// Brings the boundaries to where they are at `time` (s). Throws ComputationError where two have met that
   /// contradict each other.
   void move_boundaries(double time);

@@ -26,8 +26,8 @@ void number_unknowns(const System& system, NodalUnknowns& u) {
   }
 }
 
-void fill_field(System& system, const NodalUnknowns& unknowns, const double* values, double seconds,
-                Field component_0) {
+void fill_field(System& system, const NodalUnknowns& unknowns, const double* values,
+                std::span<const std::array<double, 2>> of_boundaries, Field component_0) {
   Grid& grid = system.grid;
   for (std::size_t c = 0; c < 2; ++c) {
     double* field = grid.field(static_cast<Field>(static_cast<std::size_t>(component_0) + c));
@@ -35,9 +35,7 @@ void fill_field(System& system, const NodalUnknowns& unknowns, const double* val
       for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n) {
         const std::int32_t k = unknowns.number[2 * n + c];
         const std::int16_t by = grid.constraint(c, n);
-        field[n] = k >= 0    ? values[k]
-                   : by >= 0 ? seconds * grid.boundaries()[static_cast<std::size_t>(by)].velocity[c]
-                             : 0.0;
+        field[n] = k >= 0 ? values[k] : by >= 0 ? of_boundaries[static_cast<std::size_t>(by)][c] : 0.0;
       }
     });
   }

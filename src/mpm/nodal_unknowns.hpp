@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,9 +23,9 @@ struct NodalUnknowns {
 void number_unknowns(const System& system, NodalUnknowns& unknowns);
 
 /// Fills a vector field (its component 0; component 1 follows): unknowns from `values`, held components with
-/// `seconds` times their prescribed velocity, empty nodes with 0.
-void fill_field(System& system, const NodalUnknowns& unknowns, const double* values, double seconds,
-                Field component_0);
+/// what is given of their boundaries, empty nodes with 0.
+void fill_field(System& system, const NodalUnknowns& unknowns, const double* values,
+                std::span<const std::array<double, 2>> of_boundaries, Field component_0);
 /// The other way round: the unknowns of a field.
 void read_field(const System& system, const NodalUnknowns& unknowns, Field component_0, double* values);
 

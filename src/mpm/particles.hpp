@@ -22,7 +22,7 @@ struct Particles {
   std::vector<std::vector<double>> variables;  ///< in the order of Material::columns()
   std::vector<std::size_t> flipping;           ///< those whose sign a mirror across the axis changes
   std::vector<std::uint32_t> identity;  ///< number of the particle at the start; outputs are in this order
-  // Where bodies have contact (mpm/contact), else empty: what patches of the surface follow.
+  // Where bodies have contact (mpm/contact) or tractions, else empty: what pieces of the surface follow.
   std::vector<double> turn;      ///< rad since the start, counter-clockwise from r to z
   std::vector<double> mirrored;  ///< 1, or -1 where the particle has become its own image at the axis
 
@@ -36,7 +36,7 @@ struct Particles {
   /// Not empty: forces act on a configuration of the past, and the stress tried is the nominal one, whose
   /// shears differ; tried_stress[3] is then P_rz and this P_zr, Pa.
   std::vector<double> tried_stress_zr;
-  /// Force of contact, N (per radian or per metre), and couple, N m; empty where the body touches nothing.
+  /// Force of contact and tractions, N (per radian or per metre), and couple, N m; empty: none acts.
   std::array<std::vector<double>, 3> contact_force;
 
   /// Gradient of the centroids of what nodes collect (mpm/centroids.hpp), (rr, rz, zr, zz), for the particles

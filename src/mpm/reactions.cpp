@@ -24,7 +24,14 @@ class Nodes {
   double pull(std::size_t component, std::size_t node) const {
     return force_[component][node] + mass_[node] * gravity_[component];
   }
+  /// What holds a node, N.
+  double reaction(std::size_t component, std::size_t node, std::int16_t by) const {
+    const double a = grid_.boundaries()[static_cast<std::size_t>(by)].acceleration[component];
+    return mass_[node] * a - pull(component, node);
+  }
   double acceleration(std::size_t component, std::size_t node) const {
+    if (const std::int16_t by = grid_.constraint(component, node); by >= 0)
+      return grid_.boundaries()[static_cast<std::size_t>(by)].acceleration[component];
     const bool moves = grid_.constraint(component, node) == Constraint::free &&
                        mass_[node] > std::numeric_limits<double>::min();
     return moves ? pull(component, node) / mass_[node] : 0.0;
@@ -43,7 +50,7 @@ void add_held(const Grid& grid, const Nodes& nodes, double* forces) {
     for (std::size_t c = 0; c < 2; ++c)
       for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n)
         if (const std::int16_t by = grid.constraint(c, n); by >= 0)
-          forces[2 * static_cast<std::size_t>(by) + c] -= nodes.pull(c, n);
+          forces[2 * static_cast<std::size_t>(by) + c] += nodes.reaction(c, n, by);
   }
 }
 

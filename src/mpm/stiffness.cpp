@@ -134,6 +134,35 @@ void Stiffness::add(const CarrierPair& pair, const Vector& force, const Vector& 
   }
 }
 
+void Stiffness::add_followers(const System& system, const NodalUnknowns& unknowns,
+                              const std::unordered_map<std::uint64_t, Vector>& by_turn,
+                              std::vector<double>& values) const {
+  dispatch(system.grid, [&]<ShapeKind kind, bool>() {
+    for_stencils<kind>(system, [&](std::size_t n, std::size_t i, const auto& stencil) {
+      const auto slope = by_turn.find(key_of(n, i));
+      if (slope == by_turn.end()) return;
+      for (const StencilNode& from : stencil) {
+        if (from.node < 0) continue;
+        const auto node_b = static_cast<std::size_t>(from.node);
+        for (std::size_t cb = 0; cb < 2; ++cb) {
+          const std::int32_t column = unknowns.number[2 * node_b + cb];
+          if (column < 0) continue;
+          const double turn = from.parity[cb] * (cb == 0 ? -0.5 * from.slope_z : 0.5 * from.slope_r);
+          const std::int64_t start = pattern_.column[static_cast<std::size_t>(column)];
+          for (const StencilNode& to : stencil) {
+            if (to.node < 0) continue;
+            std::int64_t place = start + links_[node_b].first_row[offset_between(from, to)];
+            for (std::size_t ca = 0; ca < 2; ++ca)
+              if (unknowns.number[2 * static_cast<std::size_t>(to.node) + ca] >= 0)
+                values[static_cast<std::size_t>(place++)] -=
+                    to.parity[ca] * to.value * slope->second[ca] * turn;
+          }
+        }
+      }
+    });
+  });
+}
+
 void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns,
                         std::span<const CarrierPair> couplings) {
   const Grid& grid = system.grid;

@@ -13,6 +13,10 @@ namespace vitrum::mpm {
 /// pattern is fixed as long as the particles stay where they are.
 class Stiffness {
  public:
+  /// Of a particle, by its place.
+  static std::uint64_t key_of(std::size_t body, std::size_t particle) {
+    return (static_cast<std::uint64_t>(body) << 32) | particle;
+  }
   /// Lays the pattern out anew for the particles' present positions. couplings: particles of different
   /// velocity fields that may act on each other.
   void lay_out(const System& system, const NodalUnknowns& unknowns,
@@ -28,6 +32,10 @@ class Stiffness {
   void assemble(const System& system, const NodalUnknowns& unknowns,
                 std::span<const ParticleGradient> gradients,
                 std::span<const std::vector<TangentEntries>> tangents, std::vector<double>& values) const;
+  /// Subtracts what forces on particles change by as these turn: by particle the derivative to its turn, N.
+  void add_followers(const System& system, const NodalUnknowns& unknowns,
+                     const std::unordered_map<std::uint64_t, Vector>& by_turn,
+                     std::vector<double>& values) const;
   /// Adds a spring between two particles, which pulls along one direction when it is stretched along another.
   /// Of particles that `lay_out` was not told of, what has no place in the pattern is left out.
   void add(const CarrierPair& pair, const Vector& force, const Vector& stretch, double size,
@@ -46,9 +54,6 @@ class Stiffness {
     std::uint8_t component;
     double weight;
   };
-  static std::uint64_t key_of(std::size_t body, std::size_t particle) {
-    return (static_cast<std::uint64_t>(body) << 32) | particle;
-  }
   void list_shares(const System& system, const NodalUnknowns& unknowns,
                    std::span<const CarrierPair> couplings);
   std::vector<std::vector<std::int64_t>> coupled_rows(std::size_t unknowns,

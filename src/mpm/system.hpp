@@ -26,7 +26,7 @@ struct StepRecord {
   Dissipation dissipated;         ///< in the step
   double contact = 0.0;           ///< stored between bodies, at the end of the step
   double friction = 0.0;          ///< dissipated between bodies in the step
-  double external_work = 0.0;     ///< of gravity and prescribed velocities in the step
+  double external_work = 0.0;     ///< of gravity, tractions and prescribed velocities in the step
   std::vector<BodyEvent> events;  ///< in order of time, body and identity
   /// Impulse of each boundary on the bodies, two components each, since the record was last read: who reads
   /// sets it back. N s (per radian or per metre).
@@ -36,6 +36,7 @@ struct StepRecord {
 
 namespace mpm {
 class Contact;
+class Tractions;
 }
 
 /// All that moves: bodies, their grid, and how their particles' local equations are integrated.
@@ -44,12 +45,14 @@ struct System {
   double cell = 0.0;               ///< m
   bool between_centroids = false;  ///< gradients are taken between centroids, not between nodes
   std::vector<Body> bodies;
-  std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2
+  std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2, at present (mpm/loads.hpp)
+  std::array<std::shared_ptr<const mpm::LoadFunction>, 2> gravity_over_time{};  ///< null: constant
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
   std::unique_ptr<parallel::ThreadTeam> team;
   parallel::Wave wave;                    ///< how the team goes over the grid
   std::shared_ptr<mpm::Contact> contact;  ///< null: bodies share one velocity field
+  std::shared_ptr<mpm::Tractions> tractions;  ///< null: there are none
 
   double time = 0.0;  ///< s
   std::int64_t step_index = 0;

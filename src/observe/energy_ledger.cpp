@@ -38,7 +38,7 @@ EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals) : t
   for (const Body& body : system.bodies)
     for (const double m : body.particles.mass) mass += m;
   for (const mpm::Boundary& wall : system.grid.boundaries())
-    speed = std::max(speed, std::hypot(wall.velocity[0], wall.velocity[1]));
+    speed = std::max(speed, std::hypot(wall.top_speed(0), wall.top_speed(1)));
   driving_ = 0.5 * mass * speed * speed;
   const double falling = mass * std::hypot(system.gravity[0], system.gravity[1]) * system.cell;
   totals_.rounding = std::numeric_limits<double>::epsilon() * (driving_ + falling);
@@ -137,7 +137,7 @@ void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantiti
       {"fracture", unit, "energy dissipated by decohesion", e.fracture},
       {"contact", unit, "energy stored between bodies", e.contact},
       {"friction", unit, "energy dissipated by friction between bodies", e.friction},
-      {"external", unit, "work of gravity and prescribed velocities", e.external},
+      {"external", unit, "work of gravity, tractions and prescribed velocities", e.external},
       {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth}};
   quantities.insert(quantities.end(), std::begin(own), std::end(own));

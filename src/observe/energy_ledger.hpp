@@ -20,7 +20,7 @@ class EnergyLedger final : public Observer {
       {"plastic", "J", "dissipated by plastic flow so far", true},
       {"damage", "J", "dissipated by damage so far", true},
       {"fracture", "J", "dissipated by decohesion so far", true},
-      {"external", "J", "work of gravity and prescribed velocities so far", true},
+      {"external", "J", "work of gravity, tractions and prescribed velocities so far", true},
       {"residual", "J", "initial + external - all others: what the numerics made (negative) or lost", true},
       {"contact", "J", "stored between bodies", true},
       {"friction", "J", "dissipated by friction between bodies so far", true}};

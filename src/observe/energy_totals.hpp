@@ -17,7 +17,7 @@ struct EnergyTotals {
   double damage = 0.0;        ///< dissipated so far
   double fracture = 0.0;      ///< dissipated so far, snap-back releases included
   double snap_back = 0.0;     ///< the part of fracture that instantaneous releases dissipated beyond eq. 13
-  double external = 0.0;      ///< work of gravity and prescribed velocities so far
+  double external = 0.0;      ///< work of gravity, tractions and prescribed velocities so far
   double max_growth = 1.0;    ///< largest (kinetic + elastic) / initial seen; 1 where initial = 0
   double largest_work = 0.0;  ///< largest |external| so far
   double rounding = 0.0;      ///< what rounding makes of the scene's own energies

@@ -113,9 +113,11 @@ Table make_boundary_table(Geometry geometry) {
         "boxes that hold one component at 0 have faces that are planes of symmetry",
         required},
        fix_row(geometry),
-       {"velocity", &B::velocity, "m/s", intervals::finite, "value of the held components"},
+       Field<B>("velocity", &B::velocity, "m/s", intervals::finite, "value of the held components")
+           .over_time(),
        {"moves", &B::moves,
-        "the box moves with its velocity from `time.start` on, by whole cells; false: it stays, and what it "
+        "the box moves as far as its velocity takes it from `time.start` on, by whole cells; false: it "
+        "stays, and what it "
         "holds flows through"},
        {"priority", &B::priority, Bounds{-1000.0, 1000.0},
         "where boundaries hold the same component of a node, the largest acts; different velocities with the "
@@ -123,6 +125,12 @@ Table make_boundary_table(Geometry geometry) {
 }
 
 }  // namespace
+
+const Table& traction_box_table() {
+  static const Table table =
+      in_one_line(table_of("`box` of a traction", "", box_rows(intervals::infinite_too)));
+  return table;
+}
 
 const Table& probe_box_table() {
   static const Table table = in_one_line(table_of("`box` of a probe", "", box_rows(intervals::finite)));
@@ -141,14 +149,20 @@ const Table& body_table() {
          Field<B>::alternative<Ring>("ring", &B::shape, ring_table(), "shape: between two circles"),
          Field<B>::alternative<Polygon>("polygon", &B::shape, "m", intervals::finite,
                                         "shape: closed by itself, not self-intersecting")
-             .expecting("a list of three or more vertices, each 2 finite numbers (m)"),
+             .expecting("a list of three or more vertices, each 2 finite numbers (m), or {csv = \"FILE\"}"),
          {"particles_per_cell", &B::particles_per_cell, schema::OneOf{{1, 4, 9, 16}},
           "n x n particles in each cell"},
-         {"velocity", &B::velocity, "m/s", intervals::finite, "initial velocity at the origin"},
+         Field<B>("velocity", &B::velocity, "m/s", intervals::finite, "initial velocity at the origin")
+             .over_place(),
          {"velocity_gradient", &B::velocity_gradient, "1/s", intervals::finite,
           "initial velocity = `velocity` + gradient x position"},
-         {"stress", &B::stress, "Pa", intervals::finite,
-          "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive"},
+         Field<B>("stress", &B::stress, "Pa", intervals::finite,
+                  "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
+             .over_place(),
+         {"relax", &B::relax,
+          "before the start, find the equilibrium of the stress under the loads that act then: particles "
+          "move and "
+          "strain, elastically and with no velocity"},
          {"perturbation", &B::perturbation, perturbation_table(),
           "random displacements of the particles, for ensembles; absent: none"}});
     t.alternatives = {{{shape_names.begin(), shape_names.end()}, "shape"}};

@@ -27,6 +27,12 @@ void restrict_to(Times& times, double speed, double lowest, double highest) {
   times.last = std::min(times.last, std::max(a, b));
 }
 
+const schema::Function* velocity_over_time(const Scene& scene, const BoundaryDefinition& boundary,
+                                           std::size_t component) {
+  return scene.function(
+      fmt::format("boundary.{}.velocity.{}", &boundary - scene.boundaries.data(), component));
+}
+
 /// Cells per second.
 double speed(const Scene& scene, const BoundaryDefinition& boundary, std::size_t component) {
   return boundary.moves ? boundary.velocity[component] / scene.cell : 0.0;
@@ -50,16 +56,23 @@ std::string describe_gap(const Scene& scene, const Box& box, std::size_t compone
 
 std::optional<double> contradiction(const Scene& scene, const BoundaryDefinition& a,
                                     const BoundaryDefinition& b) {
-  bool differ = false;
-  for (std::size_t c = 0; c < 2; ++c)
-    differ = differ || (a.fixed[c] && b.fixed[c] && a.velocity[c] != b.velocity[c]);
+  bool differ = false, vary = false;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const schema::Function *of_a = velocity_over_time(scene, a, c), *of_b = velocity_over_time(scene, b, c);
+    const bool same = of_a != nullptr && of_b != nullptr
+                          ? !of_a->formula.empty() && of_a->formula == of_b->formula
+                          : of_a == of_b && a.velocity[c] == b.velocity[c];
+    differ = differ || (a.fixed[c] && b.fixed[c] && !same);
+    vary = vary || of_a != nullptr || of_b != nullptr;
+  }
   if (!differ || a.priority != b.priority) return std::nullopt;
   Times times{0.0, scene.end - scene.start};
   for (std::size_t c = 0; c < 2; ++c) {
     const mpm::Rows of_a = mpm::rows_between(a.box.min[c], a.box.max[c], scene.cell),
                     of_b = mpm::rows_between(b.box.min[c], b.box.max[c], scene.cell);
     if (!of_a.any() || !of_b.any()) return std::nullopt;
-    const double relative = speed(scene, a, c) - speed(scene, b, c);
+    // Where velocities vary only the start is looked at here; that boxes meet later is found as they do.
+    const double relative = vary ? 0.0 : speed(scene, a, c) - speed(scene, b, c);
     // A box holds the nodes that are nearest to it: it comes to them half a cell before it is there.
     const double early = relative != 0.0 ? 0.5 : 0.0;
     restrict_to(times, relative, of_b.first - of_a.last - early, of_b.last - of_a.first + early);

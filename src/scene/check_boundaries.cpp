@@ -23,16 +23,18 @@ void check_box(const TableView& table, const Box& box) {
                              number_text(box.min[1])));
 }
 
-void check_boundary(const TableView& table, const BoundaryDefinition& boundary, Geometry geometry) {
+void check_boundary(const TableView& table, const BoundaryDefinition& boundary, const Scene& scene) {
+  const Geometry geometry = scene.geometry;
   if (table.sound("name")) check_name(table, boundary.name);
   if (const auto box = table.table("box"); box && table.sound("box")) check_box(*box, boundary.box);
   if (!table.sound("fix")) return;
   if (!boundary.fixed[0] && !boundary.fixed[1]) return table.fail("fix", table.expected("fix"));
   for (std::size_t i = 0; i < 2; ++i)
-    if (boundary.velocity[i] != 0.0 && !boundary.fixed[i])
+    if (const bool varies = scene.varies(fmt::format("{}.velocity.{}", table.path(), i));
+        (boundary.velocity[i] != 0.0 || varies) && !boundary.fixed[i])
       table.report("velocity", fmt::format("found {} for component \"{}\", expected 0 or \"{}\" in 'fix'",
-                                           number_text(boundary.velocity[i]), component_names(geometry)[i],
-                                           component_names(geometry)[i]));
+                                           varies ? "a function" : number_text(boundary.velocity[i]),
+                                           component_names(geometry)[i], component_names(geometry)[i]));
 }
 
 /// Reports what cannot stand together with an earlier boundary.
@@ -57,7 +59,7 @@ void check_boundaries(const TableView& document, Scene& scene) {
   for (std::size_t i = 0; i < tables.size(); ++i) {
     BoundaryDefinition& boundary = scene.boundaries[i];
     if (!tables[i].has("name")) boundary.name = tables[i].path();  // "boundary.N"
-    check_boundary(tables[i], boundary, scene.geometry);
+    check_boundary(tables[i], boundary, scene);
     for (std::size_t j = 0; j < i; ++j) check_against(tables[i], boundary, scene.boundaries[j], scene);
   }
 }

@@ -15,6 +15,7 @@ void check_bodies(const TableView& document, const Scene& scene);
 /// Names boundaries that have no name, too.
 void check_boundaries(const TableView& document, Scene& scene);
 void check_contact(const TableView& document, const Scene& scene);
+void check_tractions(const TableView& document, const Scene& scene);
 void check_probes(const TableView& document, const Scene& scene);
 void check_state(const TableView& document, const PointScene& point);
 /// The state that a point starts from. Of a file without faults.

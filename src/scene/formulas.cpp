@@ -1,15 +1,17 @@
 #include "scene/formulas.hpp"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "scene/formula_parser.hpp"
 #include "scene/suggestion.hpp"
 
 namespace vitrum::scene {
@@ -56,26 +58,62 @@ std::string Formulas::define(const std::string& name, double value) {
   return {};
 }
 
-std::variant<double, std::string> Formulas::value(std::string_view formula) const {
+void prepare(mu::Parser& parser, const Formulas& formulas, double* t, std::array<double, 2>* place) {
+  for (const Constant& constant : constants) parser.DefineConst(constant.name, constant.value);
+  for (const auto& [name, number] : formulas.parameters()) parser.DefineConst(name, number);
+  if (t != nullptr) parser.DefineVar("t", t);
+  for (std::size_t c = 0; place != nullptr && c < 2; ++c)
+    parser.DefineVar(std::string(formulas.place_names()[c]), &(*place)[c]);
+}
+
+namespace {
+
+/// What muParser found, in words of scenes.
+std::string fault_text(const mu::Parser::exception_type& error, const Formulas& formulas, bool over_time,
+                       bool over_place) {
+  const std::string& token = error.GetToken();
   std::vector<std::string> names;
+  for (const Constant& constant : constants) names.emplace_back(constant.name);
+  for (const auto& [name, unused] : formulas.parameters()) names.push_back(name);
+  if (over_time) names.emplace_back("t");
+  if (over_place) names.insert(names.end(), formulas.place_names().begin(), formulas.place_names().end());
+  if (!is_word(token) || std::ranges::find(names, token) != names.end()) return error.GetMsg();
+  if (std::ranges::find(variables, token) != variables.end())
+    return fmt::format("'{}' means nothing at this key", token);
+  return with_suggestion(fmt::format("'{}' is no parameter, unit or function", token), token, names);
+}
+
+/// A decimal of few digits where the value is one but for rounding: 20*us is 2e-5.
+double without_rounding(double value) {
+  const double few = std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr);
+  return std::abs(few - value) <= 4.0 * std::numeric_limits<double>::epsilon() * std::abs(value) ? few
+                                                                                                 : value;
+}
+
+}  // namespace
+
+std::variant<double, std::string> Formulas::value(std::string_view formula) const {
   try {
     mu::Parser parser;
-    for (const Constant& constant : constants) {
-      parser.DefineConst(constant.name, constant.value);
-      names.emplace_back(constant.name);
-    }
-    for (const auto& [name, number] : parameters_) {
-      parser.DefineConst(name, number);
-      names.push_back(name);
-    }
+    prepare(parser, *this, nullptr, nullptr);
     parser.SetExpr(std::string(formula.substr(1)));
-    return static_cast<double>(parser.Eval());
+    return without_rounding(static_cast<double>(parser.Eval()));
   } catch (const mu::Parser::exception_type& error) {
-    // A word that is a name, but none that is known.
-    const std::string& token = error.GetToken();
-    if (is_word(token) && std::ranges::find(names, token) == names.end())
-      return with_suggestion(fmt::format("'{}' is no parameter, unit or function", token), token, names);
-    return error.GetMsg();
+    return fault_text(error, *this, false, false);
+  }
+}
+
+std::string Formulas::fault(std::string_view formula, bool over_time, bool over_place, bool& varies) const {
+  FormulaVariables at;
+  try {
+    mu::Parser parser;
+    prepare(parser, *this, over_time ? &at.t : nullptr, over_place ? &at.place : nullptr);
+    parser.SetExpr(std::string(formula.substr(1)));
+    varies = !parser.GetUsedVar().empty();
+    parser.Eval();
+    return {};
+  } catch (const mu::Parser::exception_type& error) {
+    return fault_text(error, *this, over_time, over_place);
   }
 }
 

@@ -63,21 +63,24 @@ void note_places(const toml::node& node, const std::string& path, const scene::D
 
 Scene parse_scene(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
-  scene::Formulas formulas;
   const toml::table table = parse_document(text, name, overrides, diagnostics);
+  scene::Formulas formulas(scene::component_names(geometry_of(table)), {},
+                           std::filesystem::path(name).parent_path());
   const scene::TableView document(table, "", scene::scene_table(geometry_of(table)), diagnostics, formulas);
   Scene scene;
   scene.verbatim = text;
   scene.overrides = overrides;
   scene::read_table(document, &scene);
+  scene.formulas = formulas.used();
+  scene.functions = formulas.functions();
   scene::check_methods(document, scene);
   scene::check_materials(document, scene.materials);
   scene::check_bodies(document, scene);
   scene::check_boundaries(document, scene);
   scene::check_contact(document, scene);
+  scene::check_tractions(document, scene);
   scene::check_probes(document, scene);
   diagnostics.throw_if_any();
-  scene.formulas = formulas.used();
   scene.warnings = diagnostics.warnings();
   note_places(table, "", diagnostics, scene.places);
   return scene;
@@ -86,7 +89,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
 PointScene parse_point(std::string_view text, std::string_view name,
                        const std::vector<std::string>& overrides) {
   scene::Diagnostics diagnostics{std::string(name)};
-  scene::Formulas formulas;
+  scene::Formulas formulas(scene::component_names(Geometry::axisymmetric));
   const toml::table table = parse_document(text, name, overrides, diagnostics);
   const scene::TableView document(table, "", scene::point_table(), diagnostics, formulas);
   PointScene point;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "scene/csv_rows.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/toml_text.hpp"
 
@@ -81,7 +82,10 @@ class ValueReader {
       case Kind::numbers:
         return has_length(node, key_.shape.length) ? numbers(*node.as_array(), path_) : wrong();
       case Kind::rows:
-        return has_length(node, key_.shape.length) ? rows(*node.as_array()) : wrong();
+        if (node.is_table() && key_.shape.length == 0 && key_.shape.width == 2)
+          return rows_of_file(*node.as_table());
+        return has_length(node, key_.shape.length) ? rows(*node.as_array(), key_.shape.width, path_)
+                                                   : wrong();
       case Kind::texts:
         return has_length(node, key_.shape.length) ? texts(*node.as_array()) : wrong();
       default:
@@ -108,6 +112,7 @@ class ValueReader {
 
   std::optional<Value> number(const toml::node& node, const std::string& path, std::string_view what) const {
     if (node.is_string() && is_formula(node.as_string()->get())) return formula(node, path, what);
+    if (node.is_table() && key_.over_time) return time_table(*node.as_table(), path);
     if (!node.is_number()) return wrong(node, path, what);
     const double found =
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
@@ -116,6 +121,15 @@ class ValueReader {
 
   std::optional<Value> formula(const toml::node& node, const std::string& path, std::string_view what) const {
     const std::string& text = node.as_string()->get();
+    if (key_.over_time || key_.over_place) {
+      bool varies = false;
+      const std::string fault = table_.formulas().fault(text, key_.over_time, key_.over_place, varies);
+      if (!fault.empty()) return wrong(node, path, fmt::format("a formula: {}", fault));
+      if (varies) {
+        table_.formulas().note(path, schema::Function{text});
+        return 0.0;
+      }
+    }
     const std::variant<double, std::string> result = table_.formulas().value(text);
     if (const auto* fault = std::get_if<std::string>(&result))
       return wrong(node, path, fmt::format("a formula: {}", *fault));
@@ -124,6 +138,55 @@ class ValueReader {
       return wrong(node, path, fmt::format("{}; the formula gives {}", what, number_text(found)));
     table_.formulas().note(path, text);
     return found;
+  }
+
+  /// {table = [[t, value], ..]} or {csv = "FILE"}.
+  std::optional<Value> time_table(const toml::table& node, const std::string& path) const {
+    constexpr std::string_view forms = R"(a number, a formula, {table = [[t, value], ..]} or {csv = "FILE"})";
+    const toml::node *list = node.get("table"), *file = node.get("csv");
+    if (node.size() != 1 || (list == nullptr && (file == nullptr || !file->is_string())))
+      return wrong(node, path, forms);
+    schema::Function function;
+    if (list != nullptr) {
+      if (!list->is_array()) return wrong(*list, join_path(path, "table"), "rows [t, value]");
+      Key constants = key_;
+      constants.over_time = constants.over_place = false, constants.bounds = intervals::finite;
+      const std::optional<Value> rows =
+          ValueReader(table_, constants).rows(*list->as_array(), 2, join_path(path, "table"));
+      if (!rows) return std::nullopt;
+      for (const Numbers& row : std::get<std::vector<Numbers>>(*rows))
+        function.table.push_back({row[0], row[1]});
+    } else {
+      const std::string& name = file->as_string()->get();
+      auto rows = read_csv_rows(table_.formulas().folder(), name);
+      if (const auto* fault = std::get_if<std::string>(&rows))
+        return wrong(*file, join_path(path, "csv"), "a file of rows t,value: " + *fault);
+      function.table = std::get<0>(std::move(rows));
+      table_.formulas().note(path, name);
+    }
+    const toml::node& at = list != nullptr ? *list : *file;
+    bool rises = function.table.size() >= 2, within = true;
+    for (std::size_t i = 0; i < function.table.size(); ++i) {
+      rises = rises && (i == 0 || function.table[i][0] > function.table[i - 1][0]);
+      within = within && key_.bounds.contain(function.table[i][1]);
+    }
+    if (!rises) return wrong(at, path, "two or more rows [t, value] by rising time");
+    if (!within) return wrong(at, path, expected_component(key_) + " in each row");
+    table_.formulas().note(path, std::move(function));
+    return 0.0;
+  }
+
+  /// {csv = "FILE"} in place of rows of two numbers.
+  std::optional<Value> rows_of_file(const toml::table& node) const {
+    const toml::node* file = node.get("csv");
+    if (node.size() != 1 || file == nullptr || !file->is_string()) return wrong();
+    const auto found = read_csv_rows(table_.formulas().folder(), file->as_string()->get());
+    if (const auto* fault = std::get_if<std::string>(&found))
+      return wrong(*file, join_path(path_, "csv"), "a file of rows of two numbers: " + *fault);
+    std::vector<Numbers> rows;
+    for (const auto& row : std::get<0>(found)) rows.push_back({row.begin(), row.end()});
+    table_.formulas().note(path_, file->as_string()->get());
+    return rows.empty() ? std::optional<Value>(wrong(*file, path_, "a file of rows of two numbers")) : rows;
   }
 
   std::optional<Value> named_numbers(const toml::node& node) const {
@@ -189,11 +252,11 @@ class ValueReader {
     });
   }
 
-  std::optional<Value> rows(const toml::array& list) const {
-    const std::size_t width = key_.shape.width;
-    return items<Numbers>(list, path_, [&](const toml::node& node, const std::string& at) {
-      return has_length(node, width) ? numbers(*node.as_array(), at)
-                                     : wrong(node, at, fmt::format("a list of {} numbers", width));
+  std::optional<Value> rows(const toml::array& list, std::size_t width, const std::string& path) const {
+    return items<Numbers>(list, path, [&](const toml::node& node, const std::string& at) {
+      return node.is_array() && node.as_array()->size() == width
+                 ? numbers(*node.as_array(), at)
+                 : wrong(node, at, fmt::format("a list of {} numbers", width));
     });
   }
 

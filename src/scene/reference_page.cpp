@@ -25,7 +25,11 @@ The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Frag
 Wherever a number stands, a text that begins with `=` is a formula: `max = ["=R", "=5*mm"]`. It may use the numbers of `[parameters]` (each those before it),
 `mm um us ns ms GPa MPa kPa g pi`, and what [muParser](https://beltoforion.de/en/muparser/) knows (`+ - * / ^`, comparisons, `a ? b : c`, `sqrt`, `sin`, `exp`, `min`, ...).
 `--set parameters.R=0.4` changes all formulas with `R`. Formulas are evaluated when the scene is read; the resolved scene has their values, and the formulas
-behind them as comments.
+behind them as comments. (A result within rounding of a decimal of twelve digits is that decimal: `=20*us` is 2e-5.)
+
+Where functions of time may stand (see the rows), formulas may use `t`, and a table may stand in place of a number: `{table = [[0.0, 0.0], [1e-5, -20.0]]}`, seconds and
+values by rising time, linear between and constant outside, or `{csv = "FILE"}`, the same as two columns of a file (relative to the scene's folder; `#` begins a comment, a first line without
+numbers is a heading). Where functions of place may stand formulas may use `r` and `z`, or `x` and `y` in plane strain. What they are used for: [loads](loads.md).
 
 Any key can be given on the command line, by its dotted path and as a TOML value: `--set time.end=1e-4`,
 `--set 'integrator.scheme="musl"'`. Items of a list go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800` and

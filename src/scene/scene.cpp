@@ -17,6 +17,16 @@ std::string Scene::at(const std::string& key) const {
   return fact;
 }
 
+const schema::Function* Scene::function(const std::string& path) const {
+  const auto found = functions.find(path);
+  return found != functions.end() ? &found->second : nullptr;
+}
+
+bool Scene::varies(const std::string& path) const {
+  // '/' follows '.'.
+  return functions.contains(path) || functions.lower_bound(path + '.') != functions.lower_bound(path + '/');
+}
+
 const MaterialParameters& Scene::material_of(std::size_t body) const {
   return *std::find_if(materials.begin(), materials.end(),
                        [&](const MaterialParameters& m) { return m.name == bodies[body].material; });

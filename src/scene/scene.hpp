@@ -52,6 +52,7 @@ struct BodyDefinition {
   Vector2 velocity{0.0, 0.0};                  ///< m/s at the origin
   std::array<Vector2, 2> velocity_gradient{};  ///< rows: dv_r/d(r,z), dv_z/d(r,z), 1/s
   std::array<double, 4> stress{};              ///< (rr, zz, tt, rz), Pa
+  bool relax = false;                          ///< equilibrium is found before the start
   std::optional<Perturbation> perturbation;
 };
 
@@ -62,6 +63,33 @@ struct BoundaryDefinition {
   Vector2 velocity{0.0, 0.0};  ///< m/s, of the fixed components
   bool moves = true;           ///< the box, with this velocity
   int priority = 0;            ///< of boundaries that hold the same nodes, the largest acts
+};
+
+/// A charge of TNT on hard ground, whose pulse meets a surface head-on (blast.hpp).
+struct BlastDefinition {
+  double charge = 0.0;    ///< kg
+  double standoff = 0.0;  ///< m
+  std::optional<double>
+      arrival;  ///< s, of the front at the surface; none: as the fits say, ignition being at 0
+};
+
+/// A pulse p (1 - s) exp(-decay s), s = (t - arrival) / duration in [0, 1].
+struct FriedlanderDefinition {
+  double pressure = 0.0;  ///< Pa
+  double duration = 0.0;  ///< s
+  double decay = 0.0;
+  double arrival = 0.0;  ///< s
+};
+
+/// A load on the part of a body's surface that lies in a box at the start: a pressure, a vector or a pulse.
+struct TractionDefinition {
+  std::string body;
+  Box box{};                       ///< may be infinite
+  std::optional<double> pressure;  ///< Pa
+  std::optional<Vector2> vector;   ///< Pa
+  std::optional<BlastDefinition> blast;
+  std::optional<FriedlanderDefinition> friedlander;
+  bool follows = false;  ///< pressure stays normal to the surface
 };
 
 /// Where a probe looks: at the particle nearest to a point, those nearest to evenly spaced points of a line,
@@ -118,11 +146,13 @@ struct Scene {
   std::vector<BoundaryDefinition> boundaries;
   ContactDefinition contact;
   std::vector<ProbeDefinition> probes;
+  std::vector<TractionDefinition> tractions;
   Vector2 gravity{0.0, 0.0};                    ///< m/s^2
   std::vector<MaterialParameters> materials;    ///< in the order of the file
   std::string verbatim;                         ///< the file's text, unchanged
   std::vector<std::string> overrides;           ///< the --set arguments, in order
   std::map<std::string, std::string> formulas;  ///< that keys had in place of numbers, by dotted path
+  schema::Functions functions;                  ///< where they stand, the number itself is 0
   std::vector<std::string> warnings;            ///< what reading found implausible, in the order of the file
   /// Where each key stands, by dotted path: "FILE:LINE:COLUMN" or "--set N".
   std::map<std::string, std::string> places;
@@ -130,6 +160,10 @@ struct Scene {
   /// How a message about a key begins, `FILE:LINE:COLUMN: key 'a.b'`: where it stands, or the table that
   /// lacks it.
   std::string at(const std::string& key) const;
+  /// The function in place of the number at a dotted path; null: there is none.
+  const schema::Function* function(const std::string& path) const;
+  /// Whether there is one at or below a dotted path.
+  bool varies(const std::string& path) const;
   const MaterialParameters& material_of(std::size_t body) const;
 };
 

@@ -18,6 +18,8 @@ const schema::Table& space_table();
 const schema::Table& time_table();
 const schema::Table& output_table();
 const schema::Table& gravity_table();
+const schema::Table& traction_box_table();
+const schema::Table& traction_table();
 const schema::Table& body_table();
 const schema::Table& boundary_table(Geometry geometry);
 const schema::Table& contact_table();

@@ -49,6 +49,7 @@ Table make_scene_table(Geometry geometry) {
        {"boundary", &Scene::boundaries, boundary_table(geometry), "grid nodes that are held or driven"},
        contact_row(),
        {"probe", &Scene::probes, probe_table(), "material points whose history goes to `probes.csv`"},
+       {"traction", &Scene::tractions, traction_table(), "loads on the surfaces of bodies"},
        {"gravity", gravity_table(), "body force; absent: none"},
        Field<Scene>::named("material", &Scene::materials, material_table(), "the materials", required)});
 }
@@ -109,7 +110,8 @@ const Table& output_table() {
 const Table& gravity_table() {
   static const Table table = table_of<Scene>(
       "[gravity]", "",
-      {{"acceleration", &Scene::gravity, "m/s^2", intervals::finite, "(r, z) or (x, y)", required}});
+      {Field<Scene>("acceleration", &Scene::gravity, "m/s^2", intervals::finite, "(r, z) or (x, y)", required)
+           .over_time()});
   return table;
 }
 

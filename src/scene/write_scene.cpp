@@ -7,7 +7,7 @@
 namespace vitrum {
 
 std::string resolved_toml(const Scene& scene) {
-  return scene::table_text(scene::scene_table(scene.geometry), &scene, scene.formulas);
+  return scene::table_text(scene::scene_table(scene.geometry), &scene, scene.formulas, scene.functions);
 }
 
 std::string point_toml(const PointScene& point) {

@@ -36,6 +36,29 @@ std::string text_of(const std::vector<Item>& items) {
   return '[' + text + ']';
 }
 
+std::string text_of(const schema::Function& function) {
+  if (!function.formula.empty()) return toml_quoted(function.formula);
+  std::string rows;
+  for (const auto& [time, value] : function.table)
+    rows += fmt::format("{}[{}, {}]", rows.empty() ? "" : ", ", number_text(time), number_text(value));
+  return fmt::format("{{table = [{}]}}", rows);
+}
+
+/// A number or a list of numbers, with functions in place of those that vary.
+std::string varying_text(const schema::Value& value, const std::string& path,
+                         const schema::Functions& functions) {
+  if (const auto whole = functions.find(path); whole != functions.end()) return text_of(whole->second);
+  const auto* numbers = std::get_if<schema::Numbers>(&value);
+  if (numbers == nullptr) return value_text(value);
+  std::string text;
+  for (std::size_t i = 0; i < numbers->size(); ++i) {
+    const auto item = functions.find(join_path(path, i));
+    text += (text.empty() ? "" : ", ") +
+            (item != functions.end() ? text_of(item->second) : text_of((*numbers)[i]));
+  }
+  return '[' + text + ']';
+}
+
 using Texts = std::map<std::string, std::string>;
 
 /// The formulas at and below `path`, as a comment.
@@ -48,16 +71,24 @@ std::string comment(const std::string& path, const Texts& formulas) {
 }
 
 /// `KEY = VALUE` for each key with a value, by the key; tables in one line among them.
-std::vector<std::pair<std::string, std::string>> assignments(const Table& table, const void* owner) {
+std::vector<std::pair<std::string, std::string>> assignments(const Table& table, const void* owner,
+                                                             const std::string& place,
+                                                             const schema::Functions& functions) {
   std::vector<std::pair<std::string, std::string>> list;
   for (const Key& key : table.keys) {
     const auto value = key.get ? key.get(owner) : std::nullopt;
-    if (value) list.emplace_back(key.name, fmt::format("{} = {}", key.name, value_text(*value)));
+    const std::string path = join_path(place, key.name);
+    if (value)
+      list.emplace_back(key.name,
+                        fmt::format("{} = {}", key.name,
+                                    key.over_time || key.over_place ? varying_text(*value, path, functions)
+                                                                    : value_text(*value)));
     if (key.table == nullptr || !key.table->in_one_line) continue;
     const void* inner = key.look(owner, 0);
     if (inner == nullptr) continue;
     std::string text;
-    for (const auto& [name, line] : assignments(*key.table, inner)) text += (text.empty() ? "" : ", ") + line;
+    for (const auto& [name, line] : assignments(*key.table, inner, path, functions))
+      text += (text.empty() ? "" : ", ") + line;
     list.emplace_back(key.name, fmt::format("{} = {{{}}}", key.name, text));
   }
   return list;
@@ -66,11 +97,12 @@ std::vector<std::pair<std::string, std::string>> assignments(const Table& table,
 /// Writes a document part by part.
 class Writer {
  public:
-  explicit Writer(const Texts& formulas) : formulas_(formulas) {}
+  Writer(const Texts& formulas, const schema::Functions& functions)
+      : formulas_(formulas), functions_(functions) {}
 
   /// The keys of a table that stands at `place`; in headers its name is `path`, without the indices of lists.
   void write(const Table& table, const void* owner, const std::string& path, const std::string& place) {
-    for (const auto& [name, line] : assignments(table, owner))
+    for (const auto& [name, line] : assignments(table, owner, place, functions_))
       text_ += line + comment(join_path(place, name), formulas_) + '\n';
     for (const Key& key : table.keys)
       if (key.table != nullptr && !key.table->in_one_line)
@@ -95,6 +127,7 @@ class Writer {
   }
 
   const Texts& formulas_;
+  const schema::Functions& functions_;
   std::string text_;
 };
 
@@ -105,8 +138,9 @@ std::string value_text(const schema::Value& value) {
 }
 
 std::string table_text(const Table& table, const void* owner,
-                       const std::map<std::string, std::string>& formulas) {
-  Writer writer(formulas);
+                       const std::map<std::string, std::string>& formulas,
+                       const schema::Functions& functions) {
+  Writer writer(formulas, functions);
   writer.write(table, owner, "", "");
   return writer.take();
 }

@@ -11,8 +11,10 @@ std::string value_text(const schema::Value& value);
 
 /// A struct as TOML, every default filled in: read_table reads it back as the same. Keys whose absence means
 /// something stay absent.
-/// `formulas`, by the path of their key, stand behind their values as comments.
+/// `formulas`, by the path of their key, stand behind their values as comments; `functions` in place of
+/// theirs.
 std::string table_text(const schema::Table& table, const void* owner,
-                       const std::map<std::string, std::string>& formulas = {});
+                       const std::map<std::string, std::string>& formulas = {},
+                       const schema::Functions& functions = {});
 
 }  // namespace vitrum::scene

@@ -174,6 +174,16 @@ class Field : public Key {
     phrase = what;
     return std::move(*this);
   }
+  /// Functions of time may stand in place of its numbers: formulas of t, tables.
+  Field over_time() && {
+    Key::over_time = true;
+    return std::move(*this);
+  }
+  /// Formulas of place may.
+  Field over_place() && {
+    Key::over_place = true;
+    return std::move(*this);
+  }
   /// The value in effect when neither this key nor an alternative of it is given.
   Field otherwise(Value value) && {
     fallback = std::move(value);

@@ -13,6 +13,10 @@ using Json = nlohmann::ordered_json;
 Json number_schema(const Key& key) {
   const Bounds& b = key.bounds;
   Json json{{"type", {"number", "string"}}, {"pattern", "^="}};  // a formula is a text
+  if (key.over_time) {
+    json["type"].push_back("object");
+    json["properties"] = {{"table", {{"type", "array"}}}, {"csv", {{"type", "string"}}}};
+  }
   if (b.contain(intervals::infinite) || b.contain(-intervals::infinite)) json["type"].push_back("null");
   if (std::isfinite(b.lowest)) json[b.lowest_open ? "exclusiveMinimum" : "minimum"] = b.lowest;
   if (std::isfinite(b.highest)) json[b.highest_open ? "exclusiveMaximum" : "maximum"] = b.highest;
@@ -58,6 +62,12 @@ Json value_schema(const Key& key, bool whole) {
     case Kind::numbers:
       return list_schema(number_schema(key), length, 1);
     case Kind::rows:
+      if (length == 0 && width == 2)
+        return {{"anyOf",
+                 {list_schema(list_schema(number_schema(key), width), length, 1),
+                  {{"type", "object"},
+                   {"properties", {{"csv", {{"type", "string"}}}}},
+                   {"required", Json::array({"csv"})}}}}};
       return list_schema(list_schema(number_schema(key), width), length, 1);
     case Kind::texts: {
       Json json = list_schema(text_schema(key), length);

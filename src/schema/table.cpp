@@ -28,8 +28,13 @@ bool admits_infinity(const Bounds& b) {
 std::string numbers_text(std::string_view article, std::string_view noun, const Key& key) {
   const std::string range = range_text(key.bounds);
   const bool infinite = admits_infinity(key.bounds);
-  return fmt::format("{} {}{}{}{}{}", article, range.empty() && !infinite ? "finite " : "", noun, range,
-                     infinite ? ", inf admitted" : "", key.unit == "1" ? "" : fmt::format(" ({})", key.unit));
+  const char* varies = key.over_time && key.over_place ? " or functions of time and place"
+                       : key.over_time                 ? " or functions of time"
+                       : key.over_place                ? " or formulas of place"
+                                                       : "";
+  return fmt::format("{} {}{}{}{}{}{}", article, range.empty() && !infinite ? "finite " : "", noun, range,
+                     infinite ? ", inf admitted" : "", varies,
+                     key.unit == "1" ? "" : fmt::format(" ({})", key.unit));
 }
 
 std::string integer_text(const Key& key) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -16,6 +17,14 @@ namespace vitrum::schema {
 using Numbers = std::vector<double>;
 /// Numbers by names that the file gives them, in its order.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
+/// What stands in place of a number that may vary.
+struct Function {
+  std::string formula;  ///< "=...", of t, and r, z or x, y; empty: piecewise linear, constant outside
+  std::vector<std::array<double, 2>> table{};  ///< (s, value), by rising time
+};
+/// Functions by the dotted path of their key or item.
+using Functions = std::map<std::string, Function>;
 
 using ValueVariant = std::variant<double, int, bool, std::string, Numbers, std::vector<Numbers>,
                                   std::vector<std::string>, NamedNumbers>;

@@ -86,41 +86,46 @@ TEST_CASE("The reduced Newton equations solve those of the whole system", "[inte
 
 TEST_CASE("Without stress the stiffness is the derivative of the forces", "[integrators][mpm]") {
   for (const char* geometry : {"plane-strain", "axisymmetric"})
-    for (const char* shape : {"linear", "gimp", "bspline2"}) {
-      CAPTURE(geometry, shape);
-      Random random(17);
-      MpmScene scene = scene_of(geometry, shape);
-      scene.tables.replace(scene.tables.find("stress = "),
-                           std::string("stress = [0.001, -0.002, 0.0015, 0.0005]").size(), "");
-      MpmRun run(scene);
-      scatter_at_random(run.system, random, 0.3);
-      GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
-      grid.begin_phase();
-      const std::size_t n = grid.size() / 2;
-      std::vector<double> y(grid.size() + grid.integrals()), x(n);
-      grid.start(y.data());
-      REQUIRE(grid.linearise(0.0, y.data()));
-      // form(1) - form(0) is K, reduce with b = (x, 0) gives -K x.
-      std::vector<double> b(grid.size(), 0.0), Kx(n);
-      for (std::size_t k = 0; k < n; ++k) b[k] = x[k] = random.uniform(-1.0, 1.0);
-      grid.reduce(1.0, b.data(), Kx.data());
-      constexpr double h = 1e-7;
-      auto y_plus = y, y_minus = y;
-      for (std::size_t k = 0; k < n; ++k) y_plus[k] += h * x[k], y_minus[k] -= h * x[k];
-      const auto f_plus = rates_at(grid, 0.1, y_plus), f_minus = rates_at(grid, 0.1, y_minus);
-      std::vector<double> mass(grid.pattern().row.size());
-      grid.form(0.0, mass.data());
-      double error = 0.0, norm = 0.0;
-      for (std::size_t column = 0; column < n; ++column)
-        for (auto e = static_cast<std::size_t>(grid.pattern().column[column]);
-             e < static_cast<std::size_t>(grid.pattern().column[column + 1]); ++e) {
-          if (grid.pattern().row[e] != static_cast<std::int64_t>(column)) continue;
-          const double force = mass[e] * (f_plus[n + column] - f_minus[n + column]) / (2.0 * h);
-          error += std::pow(force - Kx[column], 2), norm += force * force;
-        }
-      CAPTURE(std::sqrt(error / norm));
-      CHECK(std::sqrt(error / norm) < 1e-7);
-    }
+    for (const char* shape : {"linear", "gimp", "bspline2"})
+      for (const bool pressed : {false, true}) {  // by a pressure that follows
+        CAPTURE(geometry, shape, pressed);
+        Random random(17);
+        MpmScene scene = scene_of(geometry, shape);
+        scene.tables.replace(scene.tables.find("stress = "),
+                             std::string("stress = [0.001, -0.002, 0.0015, 0.0005]").size(), "");
+        if (pressed)
+          scene.tables +=
+              "[[traction]]\nbody = \"block\"\nbox = {min = [0.5, 0], max = [inf, inf]}\npressure = 0.05\n"
+              "follows = true\n";
+        MpmRun run(scene);
+        scatter_at_random(run.system, random, 0.3);
+        GridSystem grid(run.system, {1.0, 1e-3, 1.0}, 1e-3);
+        grid.begin_phase();
+        const std::size_t n = grid.size() / 2;
+        std::vector<double> y(grid.size() + grid.integrals()), x(n);
+        grid.start(y.data());
+        REQUIRE(grid.linearise(0.0, y.data()));
+        // form(1) - form(0) is K, reduce with b = (x, 0) gives -K x.
+        std::vector<double> b(grid.size(), 0.0), Kx(n);
+        for (std::size_t k = 0; k < n; ++k) b[k] = x[k] = random.uniform(-1.0, 1.0);
+        grid.reduce(1.0, b.data(), Kx.data());
+        constexpr double h = 1e-7;
+        auto y_plus = y, y_minus = y;
+        for (std::size_t k = 0; k < n; ++k) y_plus[k] += h * x[k], y_minus[k] -= h * x[k];
+        const auto f_plus = rates_at(grid, 0.1, y_plus), f_minus = rates_at(grid, 0.1, y_minus);
+        std::vector<double> mass(grid.pattern().row.size());
+        grid.form(0.0, mass.data());
+        double error = 0.0, norm = 0.0;
+        for (std::size_t column = 0; column < n; ++column)
+          for (auto e = static_cast<std::size_t>(grid.pattern().column[column]);
+               e < static_cast<std::size_t>(grid.pattern().column[column + 1]); ++e) {
+            if (grid.pattern().row[e] != static_cast<std::int64_t>(column)) continue;
+            const double force = mass[e] * (f_plus[n + column] - f_minus[n + column]) / (2.0 * h);
+            error += std::pow(force - Kx[column], 2), norm += force * force;
+          }
+        CAPTURE(std::sqrt(error / norm));
+        CHECK(std::sqrt(error / norm) < 1e-7);
+      }
 }
 
 TEST_CASE("The stiffness of contact is the derivative of its forces: pressed, sticking, sliding",

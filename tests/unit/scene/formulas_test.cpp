@@ -70,7 +70,7 @@ TEST_CASE("formulas that cannot be", "[scene]") {
        "s.toml:4:8: key 'space.cell': ",
        {"expected a number in [1e-140, 1e+140] (m); the formula gives -0.001"}},
       {"cell = 1.0e-3", "cell = \"=0/0\"", "s.toml:4:8: key 'space.cell': ", {"the formula gives"}},
-      {"cell = 1.0e-3", "cell = \"=t\"", "s.toml:4:8: key 'space.cell': ", {"'t' is no parameter"}},
+      {"cell = 1.0e-3", "cell = \"=t\"", "s.toml:4:8: key 'space.cell': ", {"'t' means nothing at this key"}},
       {"velocity = [0, -200.0]",
        "velocity = [0, \"=v\"]",
        "s.toml:18:16: key 'body.1.velocity.1': ",

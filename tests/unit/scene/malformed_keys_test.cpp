@@ -87,7 +87,7 @@ TEST_CASE("wrong types are errors", "[scene]") {
       {"velocity = [0, -200.0]",
        "velocity = -200.0",
        "s.toml:18:12: key 'body.1.velocity': ",
-       {"found -200.0", "a list of 2 finite numbers (m/s)"}},
+       {"found -200.0", "a list of 2 finite numbers or formulas of place (m/s)"}},
       {"velocity = [0, -200.0]",
        "velocity = [0, 1, 2]",
        "s.toml:18:12: key 'body.1.velocity': ",

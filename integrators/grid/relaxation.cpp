@@ -1,0 +1,196 @@
+#include "integrators/grid/relaxation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/sundials/klu_factors.hpp"
+#include "mpm/centroids.hpp"
+#include "mpm/computation_error.hpp"
+#include "mpm/contact/contact.hpp"
+#include "mpm/loads.hpp"
+#include "mpm/nodal_unknowns.hpp"
+#include "mpm/point.hpp"
+#include "mpm/stiffness.hpp"
+#include "mpm/stress.hpp"
+#include "mpm/tractions.hpp"
+#include "mpm/transfer.hpp"
+
+namespace vitrum {
+namespace {
+
+using mpm::Field;
+
+double stored_energy(const System& system) {
+  double sum = 0.0;
+  for (const Body& body : system.bodies)
+    for (std::size_t i = 0; i < body.on_grid(); ++i)
+      sum += body.particles.mass[i] / body.material->density() *
+             body.material->stored_energy(mpm::point_of(body, i));
+  return sum;
+}
+
+/// Particles without velocity as long as it exists, so that forces alone reach the nodes, and other bodies
+/// off the grid.
+class AtRest {
+ public:
+  AtRest(System& system, const std::vector<bool>& relaxed) : system_(system) {
+    for (std::size_t n = 0; n < relaxed.size(); ++n) {
+      Body& body = system.bodies[n];
+      if (!relaxed[n]) body.coasting.emplace();
+      velocities_.push_back(body.particles.velocity);
+      for (std::vector<double>& column : body.particles.velocity)
+        std::fill(column.begin(), column.end(), 0.0);
+    }
+  }
+  ~AtRest() {
+    for (std::size_t n = 0; n < velocities_.size(); ++n) {
+      Particles& p = system_.bodies[n].particles;
+      p.velocity.swap(velocities_[n]);
+      for (std::vector<double>& column : p.strain_increment) column = {};
+      p.spin_increment = {};
+      system_.bodies[n].coasting.reset();
+    }
+    system_.grid_is_stale = true;
+  }
+  AtRest(const AtRest&) = delete;
+  AtRest& operator=(const AtRest&) = delete;
+
+ private:
+  System& system_;
+  std::vector<std::array<std::vector<double>, 2>> velocities_;
+};
+
+/// Takes strain and turn increments into the elastic strain.
+void strain_elastically(Body& body) {
+  Particles& p = body.particles;
+  for (std::size_t i = 0; i < p.size; ++i) {
+    std::array<double, 4> e{};
+    for (std::size_t c = 0; c < 4; ++c) e[c] = p.elastic_strain[c][i] + p.strain_increment[c][i];
+    const SymmetricTensor turned = rotate({e[0], e[1], e[2], e[3]}, rotation_by(p.spin_increment[i]));
+    p.elastic_strain[0][i] = turned.rr, p.elastic_strain[1][i] = turned.zz;
+    p.elastic_strain[2][i] = turned.tt, p.elastic_strain[3][i] = turned.rz;
+    if (!p.turn.empty()) p.turn[i] += p.spin_increment[i];
+  }
+}
+
+/// One of Newton's iterations.
+class Iteration {
+ public:
+  Iteration(System& system, double inertia) : system_(system), inertia_(inertia) {
+    system.grid_is_stale = true;
+    mpm::refresh_grid(system);
+    mpm::find_centroids(system);
+    mpm::scatter(system, mpm::Scatter::momentum);
+    mpm::project_velocities(system);
+    mpm::number_unknowns(system, nodes_);
+    stiffness_.lay_out(system, nodes_);
+  }
+
+  /// Energy that the forces could release, J (per radian or per metre); finds the displacements that would.
+  double solve() {
+    const std::size_t n = nodes_.size();
+    if (n == 0) return 0.0;
+    std::vector<double> force = forces(), values;
+    displacement_ = force;
+    assemble(values);
+    for (std::size_t k = 0; k < n; ++k)
+      values[static_cast<std::size_t>(stiffness_.diagonal()[k])] += inertia_ * nodes_.mass[k];
+    sundials::KluFactors factors(stiffness_.pattern());
+    if (factors.factor(values.data()) != sundials::KluFactors::Outcome::done)
+      throw ComputationError("relaxation: the stiffness of the bodies cannot be factored");
+    factors.solve(displacement_.data());
+    double energy = 0.0;
+    for (std::size_t k = 0; k < n; ++k) energy += 0.5 * force[k] * displacement_[k];
+    return energy;
+  }
+
+  /// Moves and strains the particles.
+  void move() {
+    const mpm::OfBoundaries still(system_.grid.boundaries().size());
+    for (const Field to : {Field::velocity_0, Field::new_velocity_0})
+      mpm::fill_field(system_, nodes_, displacement_.data(), still, to);
+    mpm::gather(system_, mpm::Gather::strain, 1.0);
+    for (Body& body : system_.bodies)
+      if (body.on_grid() > 0) strain_elastically(body);
+    mpm::gather(system_, mpm::Gather::position, 1.0);
+  }
+
+ private:
+  std::vector<double> forces() {
+    mpm::Contact::unload(system_);
+    if (system_.tractions) system_.tractions->load(system_, system_.time, mpm::configurations(system_));
+    mpm::scatter(system_, mpm::Scatter::force);
+    mpm::Contact::unload(system_);
+    std::vector<double> force(nodes_.size());
+    mpm::read_field(system_, nodes_, Field::force_0, force.data());
+    for (std::size_t k = 0; k < force.size(); ++k)
+      force[k] += nodes_.mass[k] * system_.gravity[nodes_.component[k]];
+    return force;
+  }
+
+  void assemble(std::vector<double>& values) {
+    std::vector<std::array<std::vector<double>, 5>> zero(system_.bodies.size());
+    std::vector<mpm::ParticleGradient> gradients(system_.bodies.size());
+    for (std::size_t b = 0; b < zero.size(); ++b) {
+      Particles& p = system_.bodies[b].particles;
+      p.keep_increments();
+      for (auto& column : p.strain_increment) std::fill(column.begin(), column.end(), 0.0);
+      std::fill(p.spin_increment.begin(), p.spin_increment.end(), 0.0);
+      for (std::size_t k = 0; k < 5; ++k) {
+        zero[b][k].assign(p.size, 0.0);
+        gradients[b].gradient[k] = zero[b][k].data();
+      }
+    }
+    mpm::Trial trial(system_, mpm::Trial::Moves::nodes);
+    std::vector<std::vector<TangentEntries>> tangents;
+    {
+      const mpm::Trial::Scope scope(system_, trial);
+      constexpr double instant = 1e-12;  // s: too short to flow, relax or break
+      mpm::gather_tangents(system_, trial, instant, tangents);
+      stiffness_.assemble(system_, nodes_, gradients, tangents, values);
+    }
+  }
+
+  System& system_;
+  double inertia_;
+  mpm::NodalUnknowns nodes_;
+  mpm::Stiffness stiffness_;
+  std::vector<double> displacement_;
+};
+
+}  // namespace
+
+Relaxation relax(System& system, const std::vector<bool>& relaxed) {
+  mpm::set_loads(system, system.time, system.time, mpm::Accelerations::none);
+  system.grid.move_boundaries(system.time);
+  const AtRest at_rest(system, relaxed);
+  // The slowest motion of a body takes a thousand crossings by waves, or more: inertia is a trace beside it.
+  double size = 0.0, speed = 0.0;
+  for (const Body& body : system.bodies) {
+    speed = std::max(speed, body.material->wave_speed());
+    for (const std::vector<double>& x : body.particles.position) {
+      const auto [least, most] = std::minmax_element(x.begin(), x.end());
+      if (least != x.end()) size = std::max(size, *most - *least + system.cell);
+    }
+  }
+  const double inertia = 1e-8 * speed * speed / (size * size);
+  constexpr int most = 30;
+  constexpr double enough = 1e-14;
+  Relaxation result;
+  for (; result.iterations < most; ++result.iterations) {
+    Iteration iteration(system, inertia);
+    const double energy = iteration.solve(), stored = stored_energy(system);
+    result.residual = stored > 0.0 ? energy / stored : energy;
+    if (!std::isfinite(result.residual)) break;
+    if (result.residual <= enough) return result;
+    iteration.move();
+  }
+  throw ComputationError(fmt::format(
+      "relaxation has found no equilibrium in {} iterations: the forces left could release {:.3g} of the "
+      "energy stored; a body whose stress or loads do not balance must be held by boundaries",
+      most, result.residual));
+}
+
+}  // namespace vitrum
