@@ -8,6 +8,7 @@
 #include "integrators/grid/critical_step.hpp"
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/computation_error.hpp"
+#include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 
 namespace vitrum {
@@ -110,6 +111,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
   bool goes_on = true;
   while (goes_on && system.time < target) {
     const double end = phase_end(system, target);
+    const double began = system.time;
     begin_phase(system, end, target);
     bool phase_over = false;
     while (!phase_over) {
@@ -119,7 +121,11 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
       ++system.step_index;
       const double* y = solver_ ? solver_->y() : carried_.data();
       phase_over = phase_over || grid_->deformation() > remap_.strain || grid_->travel(y) > remap_.travel;
-      if (phase_over) state_.remap_loss += grid_->end_phase(y), ++state_.phases;
+      system.record.filtered = 0.0;
+      if (phase_over) {
+        state_.remap_loss += grid_->end_phase(y), ++state_.phases;
+        mpm::filter_pressures(system, began, system.time);
+      }
       goes_on = observer.step_done(system, length);
       if (!goes_on && !phase_over) {  // stopped on the way: particles must stand where they are
         const double loss = grid_->end_phase(y);

@@ -11,6 +11,7 @@
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/reactions.hpp"
 #include "mpm/tractions.hpp"
@@ -31,6 +32,8 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
   system.record.external_work = mpm::carry_held(system).work;
+  system.record.filtered = 0.0;
+  mpm::filter_pressures(system, system.time, system.time + duration);
   mpm::find_centroids(system);
   if (system.contact) system.contact->begin_step(system, duration);
   if (system.tractions) {

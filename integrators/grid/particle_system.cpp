@@ -13,6 +13,7 @@
 #include "mpm/carried.hpp"
 #include "mpm/centroids.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
 #include "tensor/symmetric.hpp"
@@ -277,7 +278,7 @@ void ParticleSystem::mirror_rates(const double* y, double* rates) const {
 }
 
 bool ParticleSystem::commit(double t, double* y) {
-  const double duration = t - committed_time_;
+  const double from = committed_time_, duration = t - from;
   set_loads(t);
   load(y);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
@@ -315,10 +316,12 @@ bool ParticleSystem::commit(double t, double* y) {
     system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
   }
   const bool carried = carry();
+  system_.record.filtered = 0.0;
+  const bool filtered = mpm::filter_pressures(system_, from, t);
   system_.record.kinetic = kinetic_energy();
   const bool parted = system_.contact && (system_.step_index + 1) % mpm::Contact::steps_between_looks == 0 &&
                       system_.contact->part(system_);
-  return replaced || carried || parted;
+  return replaced || carried || filtered || parted;
 }
 
 /// Particles that have come to move with held nodes take their velocity; whether some have.

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/command_line.hpp"
 #include "app/messages.hpp"
 #include "app/plausibility.hpp"
 #include "app/simulation.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/filter.hpp"
 #include "mpm/stress.hpp"
 #include "observe/bodies.hpp"
 #include "scene/choices.hpp"
@@ -97,6 +100,15 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
                           "particles a cell, or integrator.method = \"arkode-explicit\""
                         : integrator_->advice(system_, state_.last_step)));
   if (system_.contact) warn_of_depth(system_, list);
+  // (With one particle a cell what is left of waves is no larger.)
+  constexpr double much = 0.05;
+  if (s.ringing > much * s.energy.scale() &&
+      std::ranges::any_of(scene_.bodies, [](const BodyDefinition& b) { return b.particles_per_cell > 1; }))
+    list.push_back(
+        fmt::format("{}: neighbouring particles hold {:.1f} % of the energy against each other in pressures "
+                    "that nodes do "
+                    "not see; try space.filter = \"pressures\" or one particle a cell",
+                    scene_.at("body"), 100.0 * s.ringing / s.energy.scale()));
   if (const auto idle = idle_tolerance(scene_, s.integrator)) list.push_back(scene::single_line(*idle));
   return list;
 }
@@ -122,6 +134,8 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   s.constitutive.events = system_.constitutive_events;
   s.constitutive.solver = system_.constitutive_solver;
   s.energy = shown_energy();
+  s.ringing = finite_state(system_) ? whole_ * mpm::ringing_energy(system_)
+                                    : std::numeric_limits<double>::quiet_NaN();
   s.failure = failure_.report(system_, finite_state(system_));
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Body& body = system_.bodies[n];
@@ -164,6 +178,7 @@ std::string Simulation::summary_text(const output::RunSummary& s) const {
         s.error->position, s.error->velocity,
         s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
                      : fmt::format(", strain {:.2g}", s.error->strain));
+  if (system_.filters) text += fmt::format("filter of pressures removed {:.5g} {}\n", e.filtered, unit);
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)

@@ -66,6 +66,7 @@ void EnergyLedger::step(const System& system, double /*duration*/) {
   totals_.elastic = r.elastic;
   totals_.contact = r.contact;
   totals_.friction += r.friction;
+  totals_.filtered += r.filtered;
   totals_.plastic += r.dissipated.plastic;
   totals_.damage += r.dissipated.damage;
   totals_.fracture += r.dissipated.fracture;
@@ -94,18 +95,14 @@ struct NamedEnergy {
   const char* name;
   double EnergyTotals::*member;
 };
-constexpr NamedEnergy energies[] = {{"energy.initial", &EnergyTotals::initial},
-                                    {"energy.kinetic", &EnergyTotals::kinetic},
-                                    {"energy.elastic", &EnergyTotals::elastic},
-                                    {"energy.plastic", &EnergyTotals::plastic},
-                                    {"energy.damage", &EnergyTotals::damage},
-                                    {"energy.fracture", &EnergyTotals::fracture},
-                                    {"energy.snap_back", &EnergyTotals::snap_back},
-                                    {"energy.contact", &EnergyTotals::contact},
-                                    {"energy.friction", &EnergyTotals::friction},
-                                    {"energy.external", &EnergyTotals::external},
-                                    {"energy.largest_work", &EnergyTotals::largest_work},
-                                    {"energy.rounding", &EnergyTotals::rounding}};
+constexpr NamedEnergy energies[] = {
+    {"energy.initial", &EnergyTotals::initial},     {"energy.kinetic", &EnergyTotals::kinetic},
+    {"energy.elastic", &EnergyTotals::elastic},     {"energy.plastic", &EnergyTotals::plastic},
+    {"energy.damage", &EnergyTotals::damage},       {"energy.fracture", &EnergyTotals::fracture},
+    {"energy.snap_back", &EnergyTotals::snap_back}, {"energy.contact", &EnergyTotals::contact},
+    {"energy.friction", &EnergyTotals::friction},   {"energy.filtered", &EnergyTotals::filtered},
+    {"energy.external", &EnergyTotals::external},   {"energy.largest_work", &EnergyTotals::largest_work},
+    {"energy.rounding", &EnergyTotals::rounding}};
 constexpr const char* growth_name = "energy.max_growth";  // a ratio
 
 }  // namespace
@@ -123,7 +120,7 @@ void EnergyLedger::restore(const Archive& archive) {
 void EnergyLedger::tell(const System& system) {
   const EnergyTotals e = scaled(totals_, whole_body(system));
   table_.row(system.time, system.step_index, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture,
-             e.external, e.residual(), e.contact, e.friction);
+             e.external, e.residual(), e.contact, e.friction, e.filtered);
 }
 
 void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantities) const {
@@ -137,6 +134,7 @@ void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantiti
       {"fracture", unit, "energy dissipated by decohesion", e.fracture},
       {"contact", unit, "energy stored between bodies", e.contact},
       {"friction", unit, "energy dissipated by friction between bodies", e.friction},
+      {"filtered", unit, "energy removed by the filter of pressures", e.filtered},
       {"external", unit, "work of gravity, tractions and prescribed velocities", e.external},
       {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth}};

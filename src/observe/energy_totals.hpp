@@ -23,10 +23,11 @@ struct EnergyTotals {
   double rounding = 0.0;      ///< what rounding makes of the scene's own energies
   double contact = 0.0;       ///< stored between bodies
   double friction = 0.0;      ///< dissipated between bodies so far
+  double filtered = 0.0;      ///< removed by the filter of pressures so far
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {
-    return initial + external - (kinetic + elastic + contact + plastic + damage + fracture + friction);
+    return initial + external - (kinetic + elastic + contact + plastic + damage + fracture + friction + filtered);
   }
   /// What the residual is relative to: the energy that the scene began with or was given. What is taken back
   /// from it later does not count: a body that swings or a wall that returns ends with no work at all.

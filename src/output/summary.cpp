@@ -81,13 +81,14 @@ Json constitutive_block(const std::string& method, const ConstitutiveCounters& c
           {"events", counters.events}};
 }
 
-Json energy_block(const EnergyTotals& energy) {
+Json energy_block(const EnergyTotals& energy, double ringing) {
   return {{"initial", number(energy.initial)},      {"kinetic", number(energy.kinetic)},
           {"elastic", number(energy.elastic)},      {"plastic", number(energy.plastic)},
           {"damage", number(energy.damage)},        {"fracture", number(energy.fracture)},
           {"snap_back", number(energy.snap_back)},  {"external", number(energy.external)},
           {"contact", number(energy.contact)},      {"friction", number(energy.friction)},
           {"residual", number(energy.residual())},  {"relative_residual", number(energy.relative_residual())},
+          {"filtered", number(energy.filtered)},    {"ringing", number(ringing)},
           {"max_growth", number(energy.max_growth)}};
 }
 
@@ -173,7 +174,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
           {"threads", summary.threads},
           {"integrator", integrator_block(summary)},
           {"constitutive", constitutive_block(summary.constitutive_method, summary.constitutive)},
-          {"energy", energy_block(summary.energy)},
+          {"energy", energy_block(summary.energy, summary.ringing)},
           {"failure", failure_block(summary.failure)},
           {"bodies", bodies},
           {"contacts", contacts},

@@ -51,6 +51,7 @@ struct RunSummary {
   double remap_loss = 0.0;             ///< J, arkode-implicit
   ConstitutiveCounters constitutive;
   EnergyTotals energy;
+  double ringing = 0.0;  ///< J, of pressures that differ from their average over cells, at the end
   FailureReport failure;
   std::vector<BodySummary> bodies;
   std::vector<ContactSummary> contacts;  ///< by pair, where bodies have contact

@@ -206,6 +206,7 @@ System build_system(const Scene& scene, int threads) {
   for (std::size_t index = 0; index < scene.bodies.size(); ++index)
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
   system.between_centroids = scene.gradients == Gradients::centroids;
+  system.filters = scene.filter == Filter::pressures;
   system.grid =
       mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
   mpm::set_loads(system, system.time, system.time, mpm::Accelerations::none);

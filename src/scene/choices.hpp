@@ -15,6 +15,7 @@ inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::line
                                             Named{"bspline2", mpm::ShapeKind::bspline2}};
 inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
                                       Named{"centroids", Gradients::centroids}};
+inline constexpr std::array filters{Named{"none", Filter::none}, Named{"pressures", Filter::pressures}};
 inline constexpr std::array contact_methods{Named{"single", ContactMethod::single},
                                             Named{"bodies", ContactMethod::bodies}};
 /// Whether eps_v of eq. 7 is the volumetric strain.

@@ -20,6 +20,7 @@ using Vector2 = std::array<double, 2>;
 
 enum class Geometry { axisymmetric, plane_strain };
 enum class Gradients { nodes, centroids };
+enum class Filter { none, pressures };
 enum class ContactMethod { single, bodies };
 
 struct Box {
@@ -138,6 +139,7 @@ struct Scene {
   double cell = 0.0;  ///< m
   mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;
   Gradients gradients = Gradients::nodes;
+  Filter filter = Filter::none;
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;
   ConstitutiveDefinition constitutive;

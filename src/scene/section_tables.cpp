@@ -77,7 +77,11 @@ const Table& space_table() {
         "`linear`: the hat functions of the original method, for bodies that hardly cross cells"},
        {"gradients", &Scene::gradients, gradients,
         "velocity gradients between nodes, as in the original method, or between the centroids of what nodes "
-        "collect: bodies that turn are not strained"}});
+        "collect: bodies that turn are not strained"},
+       {"filter", &Scene::filter, filters,
+        "`pressures`: what particles of a cell store against each other, and nodes do not see, is removed "
+        "and "
+        "booked as `filtered`; for more than one particle a cell"}});
   return table;
 }
 

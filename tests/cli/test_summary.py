@@ -23,7 +23,7 @@ interface = {
                    "limited_by": {"stability": integer, "accuracy": integer, "output": integer}},
     "constitutive": {"method": text, "evaluations": integer, "cvode_solves": integer, "cvode_steps": integer,
                      "cvode_rhs": integer, "failures": integer, "events": integer},
-    "energy": dict.fromkeys(("initial", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "external", "residual",
+    "energy": dict.fromkeys(("initial", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "filtered", "ringing", "external", "residual",
                              "relative_residual", "max_growth"), number),
     "failure": {"first_damage": first, "first_localisation": first, "first_separation": first, "localised": integer,
                 "separated": integer, "crack_area": number, "localised_volume": number, "localised_radius_max": number, "damage_front_radius": number, "max_opening": number,
@@ -112,7 +112,7 @@ class EnergyAccount(CommandLineTest):
             out = self.run_scene(name, **arguments)
             rows, energy = read_csv(out / "energy.csv"), read_summary(out)["energy"]
             self.assertEqual(list(rows), ["time", "step", "kinetic", "elastic", "plastic", "damage", "fracture", "external",
-                                          "residual", "contact", "friction"])
+                                          "residual", "contact", "friction", "filtered"])
             initial = rows["kinetic"][0] + rows["elastic"][0]
             accounted = sum(rows[share] for share in ("kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction"))
             np.testing.assert_allclose(rows["residual"], initial + rows["external"] - accounted, atol=1e-12 * initial)

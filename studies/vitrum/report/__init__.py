@@ -12,7 +12,7 @@ from vitrum.report import charts, frames, verdict
 from vitrum.results import Run
 
 here = pathlib.Path(__file__).resolve().parent
-_of_account = ("initial", "external", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "residual")
+_of_account = ("initial", "external", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "filtered", "residual")
 
 
 def _place(first: dict[str, Any]) -> str:
