@@ -59,6 +59,7 @@ std::string Formulas::define(const std::string& name, double value) {
 }
 
 void prepare(mu::Parser& parser, const Formulas& formulas, double* t, std::array<double, 2>* place) {
+  parser.ClearConst();  // its own _pi has 12 digits
   for (const Constant& constant : constants) parser.DefineConst(constant.name, constant.value);
   for (const auto& [name, number] : formulas.parameters()) parser.DefineConst(name, number);
   if (t != nullptr) parser.DefineVar("t", t);
@@ -83,6 +84,16 @@ std::string fault_text(const mu::Parser::exception_type& error, const Formulas& 
   return with_suggestion(fmt::format("'{}' is no parameter, unit or function", token), token, names);
 }
 
+/// The value of what has been set. Of several formulas, which a comma separates, muParser gives the last: a
+/// decimal comma would go unnoticed.
+double only_value(mu::Parser& parser) {
+  int count = 0;
+  const double* values = parser.Eval(count);
+  if (count == 1) return values[0];
+  throw mu::Parser::exception_type(
+      fmt::format("found {} formulas with commas between, expected one (decimals have a point)", count));
+}
+
 /// A decimal of few digits where the value is one but for rounding: 20*us is 2e-5.
 double without_rounding(double value) {
   const double few = std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr);
@@ -97,7 +108,7 @@ std::variant<double, std::string> Formulas::value(std::string_view formula) cons
     mu::Parser parser;
     prepare(parser, *this, nullptr, nullptr);
     parser.SetExpr(std::string(formula.substr(1)));
-    return without_rounding(static_cast<double>(parser.Eval()));
+    return without_rounding(only_value(parser));
   } catch (const mu::Parser::exception_type& error) {
     return fault_text(error, *this, false, false);
   }
@@ -110,7 +121,7 @@ std::string Formulas::fault(std::string_view formula, bool over_time, bool over_
     prepare(parser, *this, over_time ? &at.t : nullptr, over_place ? &at.place : nullptr);
     parser.SetExpr(std::string(formula.substr(1)));
     varies = !parser.GetUsedVar().empty();
-    parser.Eval();
+    only_value(parser);
     return {};
   } catch (const mu::Parser::exception_type& error) {
     return fault_text(error, *this, over_time, over_place);
