@@ -1,4 +1,6 @@
 """Connected pieces, as the summary counts them: particles of one body that have not separated, no farther apart than 1.5 cells."""
+from typing import Any
+
 import numpy as np
 
 reach_in_cells = 1.5
@@ -6,7 +8,7 @@ reach_in_cells = 1.5
 
 def _neighbours(position, reach):
     """Pairs (n x 2) of points no farther apart than `reach`, by bins of that size."""
-    bins: dict[tuple[int, ...], list[int]] = {}
+    bins: dict[Any, list[int]] = {}
     for point, place in enumerate(map(tuple, np.floor(position / reach).astype(np.int64))):
         bins.setdefault(place, []).append(point)
     pairs = []
