@@ -29,7 +29,7 @@ constexpr std::array<Constant, 10> constants{{{"mm", 1e-3},
                                               {"GPa", 1e9},
                                               {"MPa", 1e6},
                                               {"kPa", 1e3},
-                                              {"g", 1e-3},
+                                              {"g", 9.80665},
                                               {"pi", std::numbers::pi}}};
 /// Time and place, which are no numbers of a file.
 constexpr std::array<std::string_view, 5> variables{"t", "r", "z", "x", "y"};

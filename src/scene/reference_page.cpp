@@ -23,7 +23,7 @@ expected. A number is finite unless its row says that inf is admitted.
 The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*; equation numbers are its.
 
 Wherever a number stands, a text that begins with `=` is a formula: `max = ["=R", "=5*mm"]`. It may use the numbers of `[parameters]` (each those before it),
-`mm um us ns ms GPa MPa kPa g pi`, and what [muParser](https://beltoforion.de/en/muparser/) knows (`+ - * / ^`, comparisons, `a ? b : c`, `sqrt`, `sin`, `exp`, `min`, ...).
+`mm um us ns ms GPa MPa kPa`, `g` (9.80665 m/s^2: the fall on Earth, no gram; scenes weigh nothing in grams), `pi`, and what [muParser](https://beltoforion.de/en/muparser/) knows (`+ - * / ^`, comparisons, `a ? b : c`, `sqrt`, `sin`, `exp`, `min`, ...).
 `--set parameters.R=0.4` changes all formulas with `R`. Formulas are evaluated when the scene is read; the resolved scene has their values, and the formulas
 behind them as comments. (A result within rounding of a decimal of twelve digits is that decimal: `=20*us` is 2e-5.)
 

@@ -37,7 +37,7 @@ TEST_CASE("units and constants of formulas", "[scene]") {
                                                    {"=1*GPa", 1e9},
                                                    {"=1*MPa", 1e6},
                                                    {"=1*kPa", 1e3},
-                                                   {"=1000*g", 1.0},
+                                                   {"=-g", -9.80665},
                                                    {"=pi", std::acos(-1.0)},
                                                    {"=sqrt(2)", std::sqrt(2.0)},
                                                    {"=(1 < 2) ? 3 : 4", 3.0}};

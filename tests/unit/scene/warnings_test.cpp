@@ -7,7 +7,7 @@ namespace vitrum::scene {
 TEST_CASE("warnings stand in the order of the file, then of the command line, and stop nothing", "[scene]") {
   const toml::table document = toml::parse("start = 0.0\nend = 1.0\n");
   Diagnostics diagnostics("a.toml");
-  Formulas formulas;
+  Formulas formulas({"r", "z"});
   const TableView time(document, "time", time_table(), diagnostics, formulas);
   diagnostics.note_override("time.start", 2);
   time.warn("start", "an odd start");

@@ -87,7 +87,7 @@ const schema::Table& outer_table() {
 Outer read(std::string_view text) {
   const toml::table document = toml::parse(text);
   scene::Diagnostics diagnostics("f");
-  scene::Formulas formulas;
+  scene::Formulas formulas({"r", "z"});
   Outer outer;
   scene::read_table({document, "", outer_table(), diagnostics, formulas}, &outer);
   diagnostics.throw_if_any();
