@@ -120,8 +120,8 @@ std::string Formulas::fault(std::string_view formula, bool over_time, bool over_
     mu::Parser parser;
     prepare(parser, *this, over_time ? &at.t : nullptr, over_place ? &at.place : nullptr);
     parser.SetExpr(std::string(formula.substr(1)));
-    varies = !parser.GetUsedVar().empty();
     only_value(parser);
+    varies = !parser.GetUsedVar().empty();
     return {};
   } catch (const mu::Parser::exception_type& error) {
     return fault_text(error, *this, over_time, over_place);
