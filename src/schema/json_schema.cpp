@@ -15,7 +15,9 @@ Json number_schema(const Key& key) {
   Json json{{"type", {"number", "string"}}, {"pattern", "^="}};  // a formula is a text
   if (key.over_time) {
     json["type"].push_back("object");
-    json["properties"] = {{"table", {{"type", "array"}}}, {"csv", {{"type", "string"}}}};
+    json["properties"] = {
+        {"table", {{"type", "array"}, {"description", "rows [t, value]; linear between them"}}},
+        {"csv", {{"type", "string"}, {"description", "a file of rows t,value beside this one"}}}};
   }
   if (b.contain(intervals::infinite) || b.contain(-intervals::infinite)) json["type"].push_back("null");
   if (std::isfinite(b.lowest)) json[b.lowest_open ? "exclusiveMinimum" : "minimum"] = b.lowest;
@@ -63,11 +65,14 @@ Json value_schema(const Key& key, bool whole) {
       return list_schema(number_schema(key), length, 1);
     case Kind::rows:
       if (length == 0 && width == 2)
-        return {{"anyOf",
-                 {list_schema(list_schema(number_schema(key), width), length, 1),
-                  {{"type", "object"},
-                   {"properties", {{"csv", {{"type", "string"}}}}},
-                   {"required", Json::array({"csv"})}}}}};
+        return {
+            {"anyOf",
+             {list_schema(list_schema(number_schema(key), width), length, 1),
+              {{"type", "object"},
+               {"properties",
+                {{"csv",
+                  {{"type", "string"}, {"description", "a file of rows of two numbers beside this one"}}}}},
+               {"required", Json::array({"csv"})}}}}};
       return list_schema(list_schema(number_schema(key), width), length, 1);
     case Kind::texts: {
       Json json = list_schema(text_schema(key), length);
