@@ -177,7 +177,7 @@ Relaxation relax(System& system, const std::vector<bool>& relaxed) {
   }
   const double inertia = 1e-8 * speed * speed / (size * size);
   constexpr int most = 30;
-  constexpr double enough = 1e-14;
+  constexpr double enough = 1e-11;
   Relaxation result;
   for (; result.iterations < most; ++result.iterations) {
     Iteration iteration(system, inertia);

@@ -121,7 +121,7 @@ std::string Formulas::fault(std::string_view formula, bool over_time, bool over_
     prepare(parser, *this, over_time ? &at.t : nullptr, over_place ? &at.place : nullptr);
     parser.SetExpr(std::string(formula.substr(1)));
     only_value(parser);
-    varies = !parser.GetUsedVar().empty();
+    varies = !parser.GetUsedVar().empty();  // after the value, which an unknown name does not have
     return {};
   } catch (const mu::Parser::exception_type& error) {
     return fault_text(error, *this, over_time, over_place);
