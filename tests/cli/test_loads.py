@@ -1,0 +1,89 @@
+"""Loads over time and place, tractions, prestress: what scenes say of them, and what runs keep."""
+import json
+import unittest
+
+import h5py
+
+from support import CommandLineTest, here, overrides, read_summary, source
+
+loaded = here / "scenes" / "loaded.toml"
+examples = source / "examples"
+
+
+class Loads(CommandLineTest):
+    def fields(self, out):
+        with h5py.File(out / "result.h5") as result:
+            return {f"{step}/{name}": data[()].tobytes() for step in result["steps"]
+                    for name, data in result[f"steps/{step}/particles"].items()}
+
+    def test_bits(self):
+        """Threads and an interruption change nothing."""
+        for method in ("explicit", "arkode-explicit", "arkode-implicit"):
+            run = ("--set", f'integrator.method="{method}"', *overrides(output__checkpoint_every=6e-6))
+            whole = self.run_scene(f"whole-{method}", *run, "--threads", "1", scene=loaded)
+            fields, energy = self.fields(whole), read_summary(whole)["energy"]
+            self.assertGreater(energy["external"], 0.0)
+            self.assertLess(abs(energy["relative_residual"]), 0.05)
+            shared = self.run_scene(f"shared-{method}", *run, "--threads", "3", scene=loaded)
+            self.assertEqual(self.fields(shared), fields)
+            (whole / "summary.json").unlink()
+            self.vitrum("run", loaded, "--out", whole, *run, "--resume")
+            self.assertEqual(self.fields(whole), fields)
+            self.assertEqual(read_summary(whole)["energy"], energy)
+
+    def test_resolved(self):
+        """The resolved scene has formulas and tables, and is the same scene."""
+        resolved = json.loads(self.vitrum("check", loaded, "--json").stdout)["resolved"]
+        for text in ('velocity = [0.0, "=-sin(pi*t/(10*us))*(t < 10*us)"]', 'pressure = "=p*(1 - (r/(10*mm))^2)"',
+                     "acceleration = [0.0, {table = [[0.0, 0.0], [5e-06, -9810.0]]}]", "parameters = {p = 2e+06}"):
+            self.assertIn(text, resolved)
+        again = self.vitrum("check", "-", "--json", input=resolved)
+        self.assertEqual(json.loads(again.stdout)["resolved"], resolved)
+
+    def test_messages(self):
+        for settings, status, words in (
+                (['traction.0.pressure="=q*r"'], 2, r"key 'traction\.0\.pressure': .*'q' is no parameter"),
+                (['traction.0.follows=none', 'traction.0.vector=[0, 1]'], 0, "^"),
+                (['traction.0.body="plat"'], 2, r"key 'traction\.0\.body': .*did you mean 'plate'"),
+                (['traction.0.box={min=[0, 1], max=[1, 2]}'], 2, r"key 'traction\.0\.box': found nothing of the surface of body 'plate'"),
+                (['traction.1.blast={charge=1, standoff=100}'], 2, r"key 'traction\.1\.blast': found a scaled distance of 100 "),
+                (['traction.0.vector=[0, 1]', 'traction.0.follows=true'], 2, r"key 'traction\.0\.follows': found together with 'vector'"),
+                (['body.0.stress=["=1/0", 0, 0, 0]'], 2, r"key 'body\.0\.stress\.0': "),
+                (['body.0.stress=["=sqrt(r-0.01)", 0, 0, 0]'], 2, r"key 'body\.0\.stress\.0': found \"=sqrt\(r-0.01\)\" = "),
+        ):
+            with self.subTest(settings):
+                done = self.vitrum("check", loaded, *(a for s in settings for a in ("--set", s)), status=status)
+                self.assertRegex(done.stderr, words)
+        done = self.vitrum("run", loaded, "--out", "late", "--set", 'traction.0.pressure="=1e6/(t < 5*us)"', status=3)
+        self.assertRegex(done.stderr, r"key 'traction\.0\.pressure': found \"=1e6/\(t < 5\*us\)\" = inf at t = 5")
+
+    def test_balance(self):
+        profile = ('body.0.stress=["=1e7*(1-3*(2*z/0.004-1)^2)", 0, "=1e7*(1-3*(2*z/0.004-1)^2)", 0]', "body.0.relax=true")
+        out = self.vitrum("check", loaded, "--set", profile[0], "--set", profile[1]).stdout
+        self.assertRegex(out, r"# body 'plate': initial stress up to 1.*e\+07 Pa; a mean section of it carries a force of ")
+        self.assertNotIn("initial stress", self.vitrum("check", loaded).stdout)
+
+
+class Examples(CommandLineTest):
+    """The scenes that ship, on coarse grids or for a short while."""
+
+    def test_blast(self):
+        out = self.run_scene("out", *overrides(space__cell=1.52e-3, time__end=60e-6), scene=examples / "blast_window.toml")
+        summary = read_summary(out)
+        self.assertEqual(summary["status"], "complete")
+        # Panes and frame have got the impulse of the pulse, per metre: peak x half the span x time, less its decay so far.
+        momentum = -sum(body["momentum"][1] for body in summary["bodies"].values())
+        self.assertLess(10.0, momentum)
+        self.assertLess(momentum, 2.11e6 * 0.152 * 60e-6)
+        self.assertLess(abs(summary["energy"]["relative_residual"]), 0.05)
+
+    def test_ring_on_ring(self):
+        out = self.run_scene("out", *overrides(space__cell=1.5e-3, time__end=0.4e-3), scene=examples / "ring_on_ring.toml")
+        summary = read_summary(out)
+        self.assertEqual(summary["status"], "complete")
+        self.assertGreater(summary["energy"]["external"], 0.0)
+        self.assertLess(abs(summary["energy"]["relative_residual"]), 0.05)
+
+
+if __name__ == "__main__":
+    unittest.main()
