@@ -23,7 +23,7 @@ class New(CommandLineTest):
 
     def test_templates_are_listed_and_come_out_as_they_are(self):
         names = self.names()
-        self.assertLessEqual({"impact", "drop-ball", "laminate", "pressed-disk", "bar"}, set(names))
+        self.assertLessEqual({"impact", "drop-ball", "laminate", "pressed-disk", "blast", "bar"}, set(names))
         for name in names:
             self.assertEqual(self.vitrum("new", name).stdout, (templates / f"{name}.toml").read_text())
         self.assertEqual(self.vitrum("new").stdout, (templates / "impact.toml").read_text())
