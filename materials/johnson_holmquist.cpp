@@ -212,9 +212,9 @@ void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double d
     return volume_ratio(at.elastic_strain) * strength(pressure(at), rate).at(at.damage);
   };
   const State start = s;
-  const auto stress_at = [&](double fraction) {
+  const auto stress_at = [&](double part) {
     State at = start;
-    at.elastic_strain += fraction * strain;
+    at.elastic_strain += part * strain;
     return stress(at);
   };
   s.elastic_strain += strain;

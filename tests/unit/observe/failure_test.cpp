@@ -96,12 +96,12 @@ TEST_CASE("First events are the earliest inside their steps, and the fronts the 
   FailureAnalysis failure(s);
   CHECK_FALSE(failure.report(s, false).first_localisation);
   s.time = 1.0;
-  s.record.events = {{0, 7, {EventKind::localisation, 0.8}},
-                     {0, 3, {EventKind::localisation, 0.3}},
-                     {0, 5, {EventKind::yield, 0.1}}};
+  s.record.events = {{0, 7, {EventKind::localisation, 0.8, 0.0}},
+                     {0, 3, {EventKind::localisation, 0.3, 0.0}},
+                     {0, 5, {EventKind::yield, 0.1, 0.0}}};
   failure.step(s, 0.5);
   s.time = 1.5;
-  s.record.events = {{0, 9, {EventKind::localisation, 0.0}}, {0, 9, {EventKind::separation, 0.5}}};
+  s.record.events = {{0, 9, {EventKind::localisation, 0.0, 0.0}}, {0, 9, {EventKind::separation, 0.5, 0.0}}};
   variable(run, "crack_density")[12] = 0.01;
   variable(run, "crack_density")[15] = 0.4;
   separate(run, 12);

@@ -203,8 +203,10 @@ TEST_CASE("JH-2: random paths create no energy and keep damage and bulking in bo
 }
 
 TEST_CASE("JH-2: what an initial stress cannot keep is booked", "[material][jh2][energy]") {
-  const auto material = std::make_shared<Batch<JohnsonHolmquist>>(
-      MaterialParameters{.name = "glass", .elastic = elastic}, JohnsonHolmquist(elastic, glass(), 1e-3));
+  MaterialParameters parameters;
+  parameters.name = "glass", parameters.elastic = elastic;
+  const auto material =
+      std::make_shared<Batch<JohnsonHolmquist>>(parameters, JohnsonHolmquist(elastic, glass(), 1e-3));
   Random random(31);
   for (const double tension : {0.5, 0.99, 1.01, 1.2, 7.0})
     for (const double shear : {0.0, 0.3}) {
