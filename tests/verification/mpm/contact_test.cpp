@@ -104,46 +104,49 @@ TEST_CASE("Bars that begin in touch part as well", "[contact]") {
 
 namespace {
 
-/// Collides two bars at default settings in random frames of reference, from random gaps; restitutions must
-/// agree over all integrators.
-void collide_in_frames(int frames) {
+/// Collides two bars at default settings in 24 random frames of reference, from random gaps, with each
+/// integrator: restitutions must agree.
+void collide_in_frames(double speed) {
   // Of the energy in a frame. usl and the remaps of the implicit method damp; arkode-explicit does as its
   // tolerance lets it.
   const std::map<std::string, double> most_lost{
-      {"usf", 0.01}, {"musl", 0.0105}, {"usl", 0.05}, {"arkode-explicit", 0.025}, {"arkode-implicit", 0.08}};
+      {"usf", 0.01}, {"musl", 0.0125}, {"usl", 0.05}, {"arkode-explicit", 0.025}, {"arkode-implicit", 0.08}};
   Random random(29);
-  for (const double speed : {1.0, 10.0, 100.0, 400.0}) {
-    double least = 2.0, greatest = 0.0;
-    for (const Integrator& integrator : five_integrators)
-      for (int n = 0; n < frames; ++n) {
-        const double drift = random.uniform(-speed, speed),
-                     gap = random.uniform(0.0, std::min(1e-3, speed * 5e-6));
-        CAPTURE(integrator.name, speed, drift, gap);
-        MpmScene scene = bars(gap, drift + speed, drift);
-        integrator.choose(scene);
-        MpmRun run(scene);
-        const double momentum = total_momentum(run.system)[0];
-        run.advance(gap / speed + 20e-6);
-        const double e = (mean_velocity(run, 1) - mean_velocity(run, 0)) / speed;
-        least = std::min(least, e), greatest = std::max(greatest, e);
-        CHECK(std::abs(run.energy().relative_residual()) < most_lost.at(integrator.name));
-        CHECK(total_momentum(run.system)[0] == Approx(momentum).margin(1e-11 * speed));
-      }
-    INFO(speed << ": " << least << " to " << greatest);
-    CHECK(greatest - least < 0.03);
-    CHECK(least > 0.93);
-  }
+  double least = 2.0, greatest = 0.0;
+  for (const Integrator& integrator : five_integrators)
+    for (int frame = 0; frame < 24; ++frame) {
+      const double drift = random.uniform(-speed, speed),
+                   gap = random.uniform(0.0, std::min(1e-3, speed * 5e-6));
+      CAPTURE(integrator.name, speed, drift, gap);
+      MpmScene scene = bars(gap, drift + speed, drift);
+      integrator.choose(scene);
+      MpmRun run(scene);
+      const double momentum = total_momentum(run.system)[0];
+      run.advance(gap / speed + 20e-6);
+      const double e = (mean_velocity(run, 1) - mean_velocity(run, 0)) / speed;
+      least = std::min(least, e), greatest = std::max(greatest, e);
+      CHECK(std::abs(run.energy().relative_residual()) < most_lost.at(integrator.name));
+      CHECK(total_momentum(run.system)[0] == Approx(momentum).margin(1e-11 * speed));
+    }
+  INFO(least << " to " << greatest);
+  CHECK(greatest - least < 0.03);
+  CHECK(least > 0.93);
 }
 
 }  // namespace
 
-TEST_CASE("What a collision does to two bars depends neither on the frame of reference nor on the integrator",
-          "[contact]") {
-  collide_in_frames(1);
+// What a collision does to two bars depends neither on the frame of reference nor on the integrator.
+TEST_CASE("Bars that meet at 1 m/s part alike in 24 frames and five integrators", "[contact]") {
+  collide_in_frames(1.0);
 }
-
-TEST_CASE("The same in 24 frames each (a quarter of an hour)", "[.][contact-frames]") {
-  collide_in_frames(24);
+TEST_CASE("Bars that meet at 10 m/s part alike in 24 frames and five integrators", "[contact]") {
+  collide_in_frames(10.0);
+}
+TEST_CASE("Bars that meet at 100 m/s part alike in 24 frames and five integrators", "[contact]") {
+  collide_in_frames(100.0);
+}
+TEST_CASE("Bars that meet at 400 m/s part alike in 24 frames and five integrators", "[contact]") {
+  collide_in_frames(400.0);
 }
 
 TEST_CASE("A block that is pressed onto another one slides as Coulomb says", "[contact]") {
