@@ -59,18 +59,15 @@ class AtRest {
 
  private:
   System& system_;
-  std::vector<std::array<std::vector<double>, 2>> velocities_;
+  std::vector<VectorColumns> velocities_;
 };
 
 /// Takes strain and turn increments into the elastic strain.
 void strain_elastically(Body& body) {
   Particles& p = body.particles;
   for (std::size_t i = 0; i < p.size; ++i) {
-    std::array<double, 4> e{};
-    for (std::size_t c = 0; c < 4; ++c) e[c] = p.elastic_strain[c][i] + p.strain_increment[c][i];
-    const SymmetricTensor turned = rotate({e[0], e[1], e[2], e[3]}, rotation_by(p.spin_increment[i]));
-    p.elastic_strain[0][i] = turned.rr, p.elastic_strain[1][i] = turned.zz;
-    p.elastic_strain[2][i] = turned.tt, p.elastic_strain[3][i] = turned.rz;
+    const SymmetricTensor strained = tensor_at(p.elastic_strain, i) + tensor_at(p.strain_increment, i);
+    put_tensor(p.elastic_strain, i, rotate(strained, rotation_by(p.spin_increment[i])));
     if (!p.turn.empty()) p.turn[i] += p.spin_increment[i];
   }
 }

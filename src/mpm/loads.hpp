@@ -13,8 +13,8 @@ bool drives(const System& system);
 /// those of boundaries become those in the middle of the step, from half a step before; gravity is that of
 /// the start.
 void set_loads_of_step(System& system, double duration);
-/// For a state at `time` (s). until: no kink lies between the present and this time. accelerating: boundaries
-/// have accelerations; else particles take a change of velocity otherwise.
+/// For a state at `time` (s). until: no kink lies between the present and this time (s). accelerations: whether
+/// boundaries have them; else particles take a change of velocity otherwise.
 enum class Accelerations { taken, none };
 void set_loads(System& system, double time, double until, Accelerations accelerations);
 

@@ -94,7 +94,7 @@ double Tractions::power(std::span<const ParticleMotion> motion) const {
 void Tractions::book_work(System& system, double duration) {
   Grid& grid = system.grid;
   const std::size_t nodes = grid.blocks().size() * block_nodes;
-  std::array<std::vector<double>, 2> before;
+  VectorColumns before;
   for (std::size_t c = 0; c < 2; ++c) {
     double* v = grid.field(c == 0 ? Field::velocity_0 : Field::velocity_1);
     const double* w = grid.field(c == 0 ? Field::new_velocity_0 : Field::new_velocity_1);

@@ -27,7 +27,8 @@ struct EnergyTotals {
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {
-    return initial + external - (kinetic + elastic + contact + plastic + damage + fracture + friction + filtered);
+    return initial + external -
+           (kinetic + elastic + contact + plastic + damage + fracture + friction + filtered);
   }
   /// What the residual is relative to: the energy that the scene began with or was given. What is taken back
   /// from it later does not count: a body that swings or a wall that returns ends with no work at all.

@@ -37,7 +37,7 @@ void EventLog::step(const System& system, double duration) {
                            [](const Told& t) { return std::tuple(t.time, t.event->body, t.identity); });
   for (const auto& [time, identity, e] : told_) {
     const Body& body = system.bodies[e->body];
-    const std::array<std::vector<double>, 2>& position = body.particles.position;
+    const VectorColumns& position = body.particles.position;
     table_.row(time, body.name, identity, event_name(e->event.kind), position[0][e->particle],
                position[1][e->particle], e->event.stress);
   }

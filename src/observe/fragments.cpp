@@ -1,12 +1,12 @@
 #include "observe/fragments.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <compare>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <unordered_map>
+
+#include "mpm/near.hpp"
 
 namespace vitrum {
 namespace {
@@ -32,45 +32,17 @@ class DisjointSets {
 
 constexpr double reach_in_cells = 1.5;
 
-/// A particle in its square of that side. Coordinates of squares are whole, but doubles: the last step of a
-/// run that blows up throws particles farther than integers count.
-struct Placed {
-  double column, row;
-  std::size_t particle;
-  auto operator<=>(const Placed&) const = default;
-};
-
-/// The unseparated particles, by column and row.
-std::vector<Placed> placed(const Particles& p, const std::vector<double>& decohesion, double side) {
-  std::vector<Placed> order;
-  for (std::size_t i = 0; i < p.size; ++i)
-    if (decohesion[i] < 1.0)
-      order.push_back({std::floor(p.position[0][i] / side), std::floor(p.position[1][i] / side), i});
-  std::sort(order.begin(), order.end(), [](const Placed& a, const Placed& b) { return a < b; });
-  return order;
-}
-
 }  // namespace
 
 std::vector<ConnectedPiece> pieces_of(const System& system, std::size_t body_index) {
   const Particles& p = system.bodies[body_index].particles;
   const std::vector<double>& decohesion = system.bodies[body_index].column("decohesion");
   const double reach = reach_in_cells * system.cell;
-  const std::vector<Placed> order = placed(p, decohesion, reach);
+  std::vector<std::uint32_t> whole;
+  for (std::uint32_t i = 0; i < p.size; ++i)
+    if (decohesion[i] < 1.0) whole.push_back(i);
   DisjointSets sets(p.size);
-  for (const Placed& home : order)
-    for (const double beside : {-1.0, 0.0, 1.0}) {
-      // The squares of that column from the one below to the one above follow each other.
-      auto other =
-          std::lower_bound(order.begin(), order.end(), Placed{home.column + beside, home.row - 1.0, 0});
-      for (; other != order.end() && other->column == home.column + beside && other->row <= home.row + 1.0;
-           ++other) {
-        const std::size_t i = home.particle, j = other->particle;
-        if (j < i && sets.root(i) != sets.root(j) &&
-            std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
-          sets.join(i, j);
-      }
-    }
+  mpm::find_near(whole, p.position, reach, [&](std::uint32_t i, std::uint32_t j) { sets.join(i, j); });
   std::unordered_map<std::size_t, std::size_t> piece_of_root;
   std::vector<ConnectedPiece> pieces;
   for (std::size_t i = 0; i < p.size; ++i) {

@@ -74,14 +74,14 @@ void ProbeHistory::tell(const System& system) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     if (std::ranges::find(rows_, n, &Row::body) == rows_.end()) continue;
     const std::vector<std::uint32_t> place = places_of(system.bodies[n].particles);
-    const std::array<std::vector<double>, 4> stress = mpm::stress_of(system.bodies[n]);
+    const TensorColumns stress = mpm::stress_of(system.bodies[n]);
     for (const Row& row : rows_)
       if (row.body == n) tell_row(system, row, place, stress);
   }
 }
 
 void ProbeHistory::tell_row(const System& system, const Row& row, const std::vector<std::uint32_t>& place,
-                            const std::array<std::vector<double>, 4>& stress) {
+                            const TensorColumns& stress) {
   const Particles& p = system.bodies[row.body].particles;
   double mass = 0.0;
   std::array<double, 2> x{}, v{};

@@ -53,7 +53,7 @@ class ProbeHistory final : public Observer {
     std::vector<std::uint32_t> particles;  ///< identities
   };
   void tell_row(const System& system, const Row& row, const std::vector<std::uint32_t>& place,
-                const std::array<std::vector<double>, 4>& stress);
+                const TensorColumns& stress);
 
   std::vector<Row> rows_;
   Table table_{table_info};

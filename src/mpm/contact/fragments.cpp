@@ -1,10 +1,11 @@
 #include "mpm/contact/fragments.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <compare>
 #include <functional>
+#include <numeric>
 #include <utility>
+
+#include "mpm/near.hpp"
 
 namespace vitrum::mpm {
 namespace {
@@ -13,13 +14,6 @@ constexpr double joint_in_sides = 1.5;        // the eight neighbours of a parti
 constexpr std::size_t inside = 8;             // neighbours of a particle that is at no surface
 constexpr std::size_t smallest_fragment = 4;  // particles: less is rubble, which goes with what it lies at
 constexpr std::int32_t none = -1, rubble = -2;
-
-/// A particle in its square of the side of a joint.
-struct Placed {
-  double column, row;
-  std::uint32_t identity;
-  auto operator<=>(const Placed&) const = default;
-};
 
 /// Whether particles are cut off from their neighbours, by identity: separated, and the crack is open.
 std::vector<bool> cut_particles(const Body& body) {
@@ -37,23 +31,11 @@ Fragments::Fragments(const Body& body)
   if (body.column("decohesion").empty()) return;
   const Particles& p = body.particles;
   const double reach = joint_in_sides * 2.0 * body.particle_half_size;
-  std::vector<Placed> order;
-  for (std::uint32_t i = 0; i < p.size; ++i)
-    order.push_back({std::floor(p.position[0][i] / reach), std::floor(p.position[1][i] / reach), i});
-  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> all(p.size);
+  std::iota(all.begin(), all.end(), 0U);
   std::vector<std::vector<std::uint32_t>> near(p.size);
-  for (const Placed& home : order)
-    for (const double beside : {-1.0, 0.0, 1.0}) {
-      auto other =
-          std::lower_bound(order.begin(), order.end(), Placed{home.column + beside, home.row - 1.0, 0});
-      for (; other != order.end() && other->column == home.column + beside && other->row <= home.row + 1.0;
-           ++other) {
-        const std::uint32_t i = home.identity, j = other->identity;
-        if (i != j &&
-            std::hypot(p.position[0][i] - p.position[0][j], p.position[1][i] - p.position[1][j]) <= reach)
-          near[i].push_back(j);
-      }
-    }
+  find_near(all, p.position, reach,
+            [&](std::uint32_t i, std::uint32_t j) { near[i].push_back(j), near[j].push_back(i); });
   for (std::size_t i = 0; i < p.size; ++i) {
     std::sort(near[i].begin(), near[i].end());
     neighbours_.insert(neighbours_.end(), near[i].begin(), near[i].end());

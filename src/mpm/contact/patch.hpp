@@ -8,6 +8,9 @@ namespace vitrum::mpm {
 
 using Vector = std::array<double, 2>;
 
+inline Vector difference(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
 inline double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
