@@ -26,3 +26,13 @@ def look(driver, width, height, scheme="light"):
 
 def complaints(driver):
     return [entry["message"] for entry in driver.get_log("browser")]
+
+
+def wait(driver, condition, seconds=60):
+    """What `condition(driver)` gives once it is true; false if it does not become so in time. Elements that the page replaces meanwhile are asked for again."""
+    from selenium.common.exceptions import StaleElementReferenceException, TimeoutException
+    from selenium.webdriver.support.ui import WebDriverWait
+    try:
+        return WebDriverWait(driver, seconds, ignored_exceptions=(StaleElementReferenceException,)).until(condition)
+    except TimeoutException:
+        return False

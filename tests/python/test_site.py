@@ -79,9 +79,10 @@ class Site(unittest.TestCase):
         driver = browser.start()
         self.addCleanup(driver.quit)
         driver.get((self.folder / "search.html").as_uri() + "?q=decohesion")
-        driver.implicitly_wait(20)
-        found = [link.get_attribute("href") for link in driver.find_elements("css selector", "ul.search li a")]
-        self.assertTrue(any(link.split("#")[0].split("?")[0].endswith("theory.html") for link in found), found)
+        # The search shows its results one by one.
+        theory = browser.wait(driver, lambda page: [link for link in page.find_elements("css selector", "ul.search li a")
+                                                    if re.search(r"/theory\.html($|[#?])", link.get_attribute("href"))])
+        self.assertTrue(theory, driver.find_element("id", "search-results").text)
 
 
 if __name__ == "__main__":
