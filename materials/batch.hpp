@@ -11,14 +11,14 @@
 ///
 /// A law is a class with
 ///
-///     struct State : LawState { ... };          // its variables by name: double, PlaneVector,
-///     SymmetricTensor std::vector<Variable> variables() const;  // their names, units, kinds void
-///     members(auto& state, auto&& f) const;  // calls f(variable) for each, in the same order Moduli
-///     elastic() const;                   // of the virgin material: speed of waves, tangents double
-///     strain_scale() const; void start(const SymmetricTensor& stress, State& state) const;  // elastic
-///     strain under a given stress void advance(State& state, const SymmetricTensor& strain, double duration,
-///     PointReport& report) const; SymmetricTensor stress(const State& state) const; double
-///     stored_energy(const State& state) const;
+///     struct State : LawState { ... };            // its variables by name
+///     std::vector<Variable> variables() const;    // their names, units, kinds
+///     void members(auto& state, auto&& f) const;  // calls f(variable) for each, in the same order
+///     Moduli elastic() const; double strain_scale() const;            // of the virgin material
+///     void start(const SymmetricTensor& stress, State& state) const;  // elastic strain under a stress
+///     void advance(State&, const SymmetricTensor& strain, double duration, PointReport& report) const;
+///     SymmetricTensor stress(const State& state) const;
+///     double stored_energy(const State& state) const;
 ///
 /// `advance` changes elastic strain and variables and books dissipation (J/m^3) and events; stress, rotation
 /// and the variable `dissipated` are not its affair. It may have
@@ -26,8 +26,8 @@
 ///     void judge(State& state, PointReport& report) const;
 ///     std::optional<std::size_t> damage_column() const; double damage(double value) const;
 ///     std::vector<std::size_t> stress_columns() const;  // what stress() reads; absent: all
-///     Moduli secant_moduli(const State& state) const;   // Hooke's law of the state, where that is its
-///     tangent const EventDriven* event_driven() const;
+///     Moduli secant_moduli(const State& state) const;   // where Hooke's law is its tangent
+///     const EventDriven* event_driven() const;
 ///
 /// and, for speed, elastic runs (`RunsElastically`): increments that change nothing but the elastic strain
 /// are found and taken by loops that are vectorised.

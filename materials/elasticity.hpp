@@ -34,7 +34,7 @@ struct Moduli {
             volumetric + compliance * (sigma.tt - mean), compliance * sigma.rz};
   }
   /// e : E : e / 2, J per m^3 of reference volume: the stress is that of the reference volume
-  /// (docs/theory.md, 1.2), so that this is the work done on it at strains of any size.
+  /// (docs/theory/strain-and-stress.md), so that this is the work done on it at strains of any size.
   VITRUM_INLINE constexpr double energy(const SymmetricTensor& e) const {
     const double t = trace(e);
     const SymmetricTensor d = deviator(e);

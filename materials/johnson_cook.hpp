@@ -29,7 +29,7 @@ struct JohnsonCookParameters {
 
 /// sigma_y = (A + B eps^n) (1 + C ln(rate / reference rate)) (1 - T*^m) on isotropic elasticity: the strength
 /// of metals at high rates, softened by the heat of the plastic work. Neither rates nor temperatures below
-/// their references harden, and molten metal has no strength. Theory: docs/theory.md, 4.1.
+/// their references harden, and molten metal has no strength. Theory: docs/theory/other-laws.md.
 class JohnsonCook {
  public:
   using Parameters = JohnsonCookParameters;

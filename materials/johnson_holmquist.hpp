@@ -32,7 +32,7 @@ struct JohnsonHolmquistParameters {
 /// JH-2: a strength that falls from an intact to a fractured curve, both growing with pressure and rate, as
 /// plastic strain uses up what the pressure admits; a polynomial equation of state, to which the elastic
 /// energy that fracture sets free adds pressure (bulking). Nothing flows in volume: the trace of the strain
-/// is ln(V/V0). Theory: docs/theory.md, 4.3.
+/// is ln(V/V0). Theory: docs/theory/other-laws.md.
 class JohnsonHolmquist {
  public:
   using Parameters = JohnsonHolmquistParameters;
@@ -54,7 +54,7 @@ class JohnsonHolmquist {
   void start(const SymmetricTensor& stress, State& state) const;
   void judge(State& state, PointReport& report) const { advance(state, {}, 0.0, report); }
   void advance(State& state, const SymmetricTensor& strain, double duration, PointReport& report) const;
-  /// Of the reference volume (theory.md, 1.2), Pa.
+  /// Of the reference volume (docs/theory/strain-and-stress.md), Pa.
   SymmetricTensor stress(const State& state) const;
   double stored_energy(const State& state) const;
 

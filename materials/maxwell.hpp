@@ -30,7 +30,7 @@ struct MaxwellParameters {
 
 /// Generalised Maxwell viscoelasticity: an elastic branch that lasts beside branches of a spring (shear
 /// modulus g_i G0) and a dashpot in series. Stored: the strain and, for each branch, the strain of its
-/// spring, a deviator. Exact for a constant strain rate. Theory: docs/theory.md, 4.2.
+/// spring, a deviator. Exact for a constant strain rate. Theory: docs/theory/other-laws.md.
 class Maxwell {
  public:
   static constexpr std::size_t most_branches = 11;  // of four columns each, see most_columns

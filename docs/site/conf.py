@@ -11,11 +11,14 @@ import shutil
 navigation = {
     "Start": ["start/install", "start/first-run", "start/reading-a-result"],
     "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test"],
-    "How to": ["python", "report", "studies", "development"],
-    "Theory": ["theory", "integrators", "verification"],
-    "Reference": ["scene-reference", "materials", "result-format"],
-    "Reports": ["findings", "study-paper", "study-trade", "study-sensitivity", "study-stability", "performance", "performance-measurements",
-                "performance-history"],
+    "How to": ["howto/contact", "howto/loads", "howto/tolerance", "howto/resume", "howto/studies", "howto/clusters", "howto/python", "howto/report", "howto/paraview",
+               "howto/own-law", "howto/own-observer", "howto/development"],
+    "Theory": ["theory/index", "theory/strain-and-stress", "theory/damage", "theory/bifurcation", "theory/decohesion", "theory/von-mises", "theory/drucker-prager",
+               "theory/events", "theory/other-laws", "theory/local-equations", "theory/discrete-equations", "theory/grid", "theory/boundaries", "theory/loads", "theory/contact",
+               "theory/turning-bodies", "theory/explicit", "theory/adaptive", "theory/integrators", "theory/energy", "theory/failure", "theory/resolution"],
+    "Reference": ["reference/scene", "reference/materials", "reference/result"],
+    "Reports": ["reports/verification", "reports/findings", "reports/study-paper", "reports/study-trade", "reports/study-sensitivity", "reports/study-stability",
+                "reports/performance", "reports/performance-measurements", "reports/performance-history"],
 }
 
 docs = pathlib.Path(__file__).resolve().parents[1]

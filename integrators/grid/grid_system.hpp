@@ -26,7 +26,7 @@ namespace vitrum {
 /// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
 /// the derivative of the energy as a function of that strain, so that an elastic phase conserves energy for
 /// any rotation
-/// (docs/theory.md 1.2).
+/// (docs/theory/strain-and-stress.md).
 class GridSystem final : public sundials::ReducibleSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales. travel: cells that a node goes in a phase.

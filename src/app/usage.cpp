@@ -76,8 +76,8 @@ std::string examples_of(std::string_view command) {
   vitrum compare out/plate out/fast out/plate --last --fields velocity,stress
   vitrum compare out/plate out/fast --fields position --tolerance 1  # exit status 1 where one differs by more
   vitrum compare out/plate out/fast --json)"},
-      Example{"reference", R"(  vitrum reference > scene-reference.md
-  vitrum reference --result > result-format.md
+      Example{"reference", R"(  vitrum reference > scene.md
+  vitrum reference --result > result.md
   vitrum reference --materials > materials.md)"},
       Example{"", R"(  vitrum new impact > plate.toml
   vitrum check plate.toml

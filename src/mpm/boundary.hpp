@@ -41,7 +41,7 @@ struct Boundary {
   bool moves = true;               ///< with its velocity
   double since = 0.0;              ///< s
   int priority = 0;      ///< of the boundaries that hold a component of a node, one with the largest acts
-  bool mirrors = false;  ///< its faces are planes of symmetry (docs/theory.md 2.1)
+  bool mirrors = false;  ///< its faces are planes of symmetry (docs/theory/boundaries.md)
   std::array<std::shared_ptr<const Drive>, 2> drive{};  ///< null: the velocity is constant
   /// Of components with a drive: m/s when the step ends, m/s^2.
   std::array<double, 2> velocity_after{}, acceleration{};

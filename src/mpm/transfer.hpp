@@ -21,7 +21,7 @@ void refresh_grid_for_positions(System& system);
 enum class Scatter { momentum, force, momentum_and_force };
 /// Particles to nodes: mass and momentum m_i = sum N m_p, p_i = sum N m_p v_p, and / or internal forces f_i
 /// (N per radian or per metre; physics: f_r = -sum V (s_rr N,r + s_rz N,z + s_tt N/r), f_z = -sum V (s_rz N,r
-/// + s_zz N,z), V = V0, the reference volume: theory.md, 1.2).
+/// + s_zz N,z), V = V0, the reference volume: docs/theory/strain-and-stress.md).
 /// until: whether nodes keep their sums, or go on at once as by project_velocities and, with forces, to their
 /// new velocities after `duration` seconds under these and gravity (held components keep their prescribed
 /// ones). Momenta and forces then reach no memory, and the work of gravity and of prescribed velocities is

@@ -23,7 +23,7 @@ inline double whole_body(const System& system) {
 }
 
 /// Looks on while a system is computed, and tells what it saw. It changes nothing: a run has the same bits
-/// whoever looks on. A new one is a file pair and a line in registry.cpp (docs/development.md).
+/// whoever looks on. A new one is a file pair and a line in registry.cpp (docs/howto/development.md).
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -104,7 +104,7 @@ written, except `elastic_strain`. A variable is NaN for particles whose material
 |---|---|---|---|
 | `position` | 2 | m | (r, z) or (x, y) |
 | `velocity` | 2 | m/s | (r, z) or (x, y) |
-| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](theory.md), 1.2). Cauchy's is this over the change of volume, from which it differs by 0.1 % where such glass fails |
+| `stress` | 4 | Pa | (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive: force per area of the unstrained material, Kirchhoff's stress ([theory](../theory/strain-and-stress.md)). Cauchy's is this over the change of volume, from which it differs by 0.1 % where such glass fails |
 | `damage` | 1 | 1 | D = 1 - K_bar/K, eq. 8 |
 )";
 
@@ -168,14 +168,14 @@ constexpr std::string_view after_tables = R"(
 | `time`, `particles`, `wall_seconds`, `total_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop alone; seconds of the whole process, outputs and all (of a resumed run: both with those before the checkpoint); threads used |
 | `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `factor_entries` (most numbers in the sparse factors, 8 bytes each), `step_min`, `step_max` (s), `limited_by` {`stability`, `contact` (stability, where contact is stiffer than the grid), `accuracy` (or `max_step`), `output`, `remap`} (steps), `error_estimate` {`total`, `position`, `velocity`, `strain`} (sums of local errors over their scales; null: no estimate), `phases`, `remap_loss` (J; arkode-implicit) |
 | `constitutive` | `method`, `evaluations` (bodies that coast take none), `cvode_solves`, `cvode_steps`, `cvode_rhs`, `increments_solved`, `solves`, `solver_steps`, `solver_rhs`, `failures`, `events` |
-| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `contact` (stored between bodies), `friction` (dissipated between them), `filtered` (removed by `space.filter`), `ringing` (elastic energy of pressures that differ from their average over cells, at the end: [theory](theory.md), 2.9), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
+| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `contact` (stored between bodies), `friction` (dissipated between them), `filtered` (removed by `space.filter`), `ringing` (elastic energy of pressures that differ from their average over cells, at the end: [theory](../theory/resolution.md)), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
 | `failure.first_damage`, `.first_localisation`, `.first_separation` | {`time`, `r`, `z`, `body`} |
 | `failure.localised`, `.separated` | particles at the end |
 | `failure.crack_area`, `.localised_volume` | m^2, m^3 (plane strain: per metre); sum over the localised particles of V0/L_e, and of V0. The area is what has a limit as cells shrink: cracks are a cell wide |
 | `failure.damage_threshold` | the damage D that `first_damage` waits for |
 | `failure.localised_radius_max`, `.damage_front_radius` | m; largest r of a localised particle, of a particle with D > 0.1 |
 | `failure.max_opening`, `.max_opening_radius` | m |
-| `failure.perforated` | whether the projectile is through the target, whatever is left of that ([theory](theory.md), 3); null: no body moves at the start towards one that can separate |
+| `failure.perforated` | whether the projectile is through the target, whatever is left of that ([theory](../theory/failure.md)); null: no body moves at the start towards one that can separate |
 | `failure.fragments` | `count`, `largest_mass`, `total_mass`, `list` of the 100 largest {`body`, `particles`, `mass`, `centre`, `velocity`} |
 | `bodies.NAME` | `particles`, `mass`, `momentum`, `centre`, `kinetic`, the measures of `failure` for this body alone (`first_*`, `localised`, ... `max_opening_radius`), and `fragments`, their number |
 | `contacts` | a list of the pairs of bodies between which there is contact: `bodies`, `impulse` (N s, on the first since the start; kg m/s gained), `friction_work` (J), `least_gap` (m, between opposite places of their surfaces, so far; negative: penetration) |

@@ -3,7 +3,7 @@
 
 namespace vitrum::output {
 
-/// The Markdown page docs/result-format.md. Its table of state variables comes from all_columns().
+/// The Markdown page docs/reference/result.md. Its table of state variables comes from all_columns().
 std::string result_reference();
 
 }  // namespace vitrum::output

@@ -61,7 +61,7 @@ struct RunSummary {
 /// Fragments listed one by one; their number and masses count all of them.
 inline constexpr std::size_t listed_fragments = 100;
 
-/// The keys of docs/result-format.md in its order. What did not happen, and every number that is not finite,
+/// The keys of docs/reference/result.md in its order. What did not happen, and every number that is not finite,
 /// is null.
 nlohmann::ordered_json to_json(const RunSummary& summary);
 

@@ -100,7 +100,7 @@ std::string materials_page() {
 
 Presets: `[material.NAME]` with `preset = ".."` has the values below, each unless the scene gives its own (`preset = "copper"` and `young = 120e9`;
 `[material.NAME.johnson_cook]` and `temperature = 400.0`). `check` prints the scene with all of them filled in. Bounds and defaults are in the
-[scene reference](scene-reference.md), the laws are in the [theory](theory.md#4-other-laws). Published constants are fits to some batch of a material under some loading:
+[scene reference](scene.md), the laws are in the [theory](../theory/other-laws.md). Published constants are fits to some batch of a material under some loading:
 read the source before a conclusion depends on them.
 The paper is *A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method*.
 

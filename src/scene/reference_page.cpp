@@ -29,7 +29,7 @@ behind them as comments. (A result within rounding of a decimal of twelve digits
 
 Where functions of time may stand (see the rows), formulas may use `t`, and a table may stand in place of a number: `{table = [[0.0, 0.0], [1e-5, -20.0]]}`, seconds and
 values by rising time, linear between and constant outside, or `{csv = "FILE"}`, the same as two columns of a file (relative to the scene's folder; `#` begins a comment, a first line without
-numbers is a heading). Where functions of place may stand formulas may use `r` and `z`, or `x` and `y` in plane strain. What they are used for: [loads](loads.md).
+numbers is a heading). Where functions of place may stand formulas may use `r` and `z`, or `x` and `y` in plane strain. What they are used for: [loads](../howto/loads.md).
 
 Any key can be given on the command line, by its dotted path and as a TOML value: `--set time.end=1e-4`,
 `--set 'integrator.scheme="musl"'`. Items of a list go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800` and

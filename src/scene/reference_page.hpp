@@ -3,7 +3,7 @@
 
 namespace vitrum {
 
-/// docs/scene-reference.md: every key of scene and point files, from the tables that the reader itself uses.
+/// docs/reference/scene.md: every key of scene and point files, from the tables that the reader itself uses.
 std::string scene_reference();
 
 /// JSON schemas of scene and point files, from the same tables.

@@ -6,7 +6,7 @@
 namespace vitrum {
 namespace {
 
-/// A particle's share of a step, relative to linear shape functions (docs/performance-measurements.md).
+/// A particle's share of a step, relative to linear shape functions (docs/reports/performance-measurements.md).
 double cost_of(mpm::ShapeKind shape) {
   switch (shape) {
     case mpm::ShapeKind::linear:

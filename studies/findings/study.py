@@ -12,7 +12,7 @@ from findings.cases import (local_cases, local_methods, model_cases, models, pic
 from findings.measure import checked, ending, kinetic_apart, made, percent, place, point, row, span, time_text
 
 name = "findings"
-page = "docs/findings.md"
+page = "docs/reports/findings.md"
 pictures = "docs/pictures/findings"
 # Blocks of other pages that this study writes: page -> template.
 blocks = {"README.md": "readme.md"}

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Everything that docs/performance.md says in figures, measured on this machine, in one command:
+"""Everything that docs/reports/performance.md says in figures, measured on this machine, in one command:
 
     studies/performance/measure.py BUILD [--out DIR] [--repetitions N] [--quick]
 

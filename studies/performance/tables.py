@@ -1,4 +1,4 @@
-"""The tables of docs/performance-measurements.md."""
+"""The tables of docs/reports/performance-measurements.md."""
 import datetime
 import math
 import platform

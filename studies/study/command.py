@@ -32,7 +32,7 @@ def _report(study, quick, out):
     (out / "page.md").write_text(page)
     if not quick:
         name = study.name
-        publish(page, out / "figures", getattr(study, "page", f"docs/study-{name}.md"), getattr(study, "pictures", f"docs/pictures/study-{name}"))
+        publish(page, out / "figures", getattr(study, "page", f"docs/reports/study-{name}.md"), getattr(study, "pictures", f"docs/pictures/study-{name}"))
         for target, text in blocks.items():
             write_blocks(target, text)
     return 0

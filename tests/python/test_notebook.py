@@ -5,7 +5,7 @@ import unittest
 
 from support import PackageTest, source
 
-notebook = source / "docs/a-run-from-python.ipynb"
+notebook = source / "docs/howto/a-run-from-python.ipynb"
 
 
 @unittest.skipUnless(importlib.util.find_spec("nbclient") and importlib.util.find_spec("ipykernel"), "no nbclient or no ipykernel")

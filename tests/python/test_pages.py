@@ -1,4 +1,4 @@
-"""README, docs/start and docs/tutorials do what they say: every code block is executed, in a folder of its own, at low resolution."""
+"""README, docs/start, docs/tutorials and what is fenced in docs/howto do what they say: every code block is executed, in a folder of its own, at low resolution."""
 import sys
 import tempfile
 import textwrap
@@ -10,7 +10,9 @@ from support import PackageTest, source
 sys.path.insert(0, str(source / "docs/site"))
 import pages  # noqa: E402
 
-followed = [source / "README.md", source / "CONTRIBUTING.md", *sorted((source / "docs/start").glob("*.md")), *sorted((source / "docs/tutorials").glob("*.md"))]
+docs = source / "docs"
+followed = [source / "README.md", source / "CONTRIBUTING.md", *sorted((docs / "start").glob("*.md")), *sorted((docs / "tutorials").glob("*.md")),
+            *(page for page in sorted((docs / "howto").glob("*.md")) if "```" in page.read_text())]
 
 
 class Pages(unittest.TestCase):

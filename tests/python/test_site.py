@@ -81,7 +81,7 @@ class Site(unittest.TestCase):
         driver.get((self.folder / "search.html").as_uri() + "?q=decohesion")
         # The search shows its results one by one.
         theory = browser.wait(driver, lambda page: [link for link in page.find_elements("css selector", "ul.search li a")
-                                                    if re.search(r"/theory\.html($|[#?])", link.get_attribute("href"))])
+                                                    if re.search(r"/theory/decohesion\.html($|[#?])", link.get_attribute("href"))])
         self.assertTrue(theory, driver.find_element("id", "search-results").text)
 
 

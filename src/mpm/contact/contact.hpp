@@ -89,7 +89,7 @@ class Contact {
   std::span<const BodyPair> pairs() const { return pairs_; }
   std::span<const ContactHistory> history() const { return history_; }
   /// Bound of what a pair of bodies adds to the squares of frequencies while it touches, 1/s^2: k (s_a +
-  /// s_b), s the surface that is carried by a particle over its mass (docs/theory.md 2.7).
+  /// s_b), s the surface that is carried by a particle over its mass (docs/theory/contact.md).
   double frequency_squared(std::size_t pair) const { return frequencies_squared_[pair]; }
   /// Least distance of opposite places of a pair's surfaces in the state evaluated, m; infinite: none are
   /// near.

@@ -52,7 +52,7 @@ struct Barrier {
   }
 };
 
-/// U = k A S W u(g) of two patches (docs/theory.md 2.7): n bisects n_a and -n_b, g = (x_b - x_a).n is the
+/// U = k A S W u(g) of two patches (docs/theory/contact.md): n bisects n_a and -n_b, g = (x_b - x_a).n is the
 /// gap, t the offset along the surface, W = hat(|t| / longer length) the overlap, S the facing (1 where the
 /// normals are within 53 degrees of opposite), A = (shorter length) x (smaller ring), u = depth^2 barrier(-g
 /// / depth).

@@ -62,7 +62,7 @@ TEST_CASE("strengths at 1000 /s", "[material][damage][bifurcation]") {
 
 TEST_CASE("damage at the onset falls with the volume change of the strain",
           "[material][damage][bifurcation]") {
-  // What docs/study-paper.md says of damage that leads separation.
+  // What docs/reports/study-paper.md says of damage that leads separation.
   struct Case {
     SymmetricTensor strain;
     double damage;

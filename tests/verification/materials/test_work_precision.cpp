@@ -11,7 +11,7 @@
 using namespace vitrum;
 using namespace vitrum::test;
 
-// Run by hand: tests_verification "[work-precision]" prints the table of docs/findings.md.
+// Run by hand: tests_verification "[work-precision]" prints the table of docs/reports/findings.md.
 TEST_CASE("work and precision of the three methods", "[.][work-precision]") {
   struct Work {
     const char* name;
