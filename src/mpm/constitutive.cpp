@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mpm/computation_error.hpp"
+#include "mpm/crack_length.hpp"
 #include "mpm/stress_update.hpp"
 #include "mpm/transfer.hpp"
 
@@ -228,6 +229,7 @@ void StressUpdate::book() {
     enter(system_.record, k % bodies, reports_[k]);
   }
   order_events(system_);
+  share_cracks(system_);
   for (const Body& body : system_.bodies)
     system_.constitutive_evaluations += static_cast<std::int64_t>(body.on_grid());
   system_.constitutive_events += static_cast<std::int64_t>(system_.record.events.size());
@@ -242,6 +244,7 @@ void update_stress(System& system, double duration) {
                       enter(system.record, n, report);
                     });
   order_events(system);
+  share_cracks(system);
   system.constitutive_events += static_cast<std::int64_t>(system.record.events.size());
 }
 

@@ -1,5 +1,6 @@
 #include "mpm/initial_state.hpp"
 
+#include "mpm/crack_length.hpp"
 #include "mpm/point.hpp"
 
 namespace vitrum::mpm {
@@ -22,6 +23,7 @@ void judge_initial_states(System& system) {
       for (const Event& event : report.events) record.events.push_back({n, i, event});
     }
   }
+  share_cracks(system);
   system.constitutive_events += static_cast<std::int64_t>(record.events.size());
 }
 

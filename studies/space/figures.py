@@ -25,7 +25,7 @@ def group(title, settings, found, folder, name):
         axes.set_xscale("log", base=2)
         axes.set_xticks([1e3 * cell for cell in cells.values()], list(cells))
         axes.minorticks_off()
-        axes.set_xlim(1.25, 0.2)
+        axes.set_xlim(1.25, 0.1)
         axes.set_title(f"{label} ({unit})" if unit else label)
     for axes in panels[1]:
         axes.set_xlabel("cell (mm)")

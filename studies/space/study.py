@@ -6,15 +6,17 @@ from study.outcome import run as compute
 from study.tables import markdown, number, write_csv
 
 from space import figures
-from space.cases import all_settings, asked, base, cells, cells_of, end, ensemble, quick_end
-from space.measures import convergence, of_run, quantities, statistics
+from space.cases import all_settings, asked, base, cells_of, end, ensemble, fixed, fixed_four, four, paper, paper_four, quick_end, shipped, shipped_ensemble
+from space.measures import convergence, of_run, of_shipped, quantities, shipped_quantities, statistics
 
 name = "space"
 
 
 def _ensembles(quick):
     """Job -> cases."""
-    return {f"{setting.name}-{cell}": ensemble(setting, cell, quick) for setting in all_settings(quick).values() for cell in cells_of(setting, quick)}
+    of_reference = {f"{setting.name}-{cell}": ensemble(setting, cell, quick) for setting in all_settings(quick).values() for cell in cells_of(setting, quick)}
+    of_shipped_scenes = {f"{scene.name}-{part}-{count}": shipped_ensemble(scene, part, count) for scene in shipped for part, count in scene.members if not quick}
+    return of_reference | of_shipped_scenes
 
 
 def jobs(quick):
@@ -32,8 +34,13 @@ def run(job, quick, out):
 
 def _measure(quick, out):
     """(setting, cell) -> rows of the members, and the number of those that failed."""
-    return {(setting.name, cell): [of_run(compute(each, out / "runs")) for each in ensemble(setting, cell, quick)]
+    return {(setting.name, cell): [of_run(compute(each, out / "runs"), quick_end if quick else end) for each in ensemble(setting, cell, quick)]
             for setting in all_settings(quick).values() for cell in cells_of(setting, quick)}
+
+
+def _measure_shipped(out):
+    """(scene, cell in mm, particles a cell) -> rows of the members."""
+    return {(scene.name, *scene.place(*place)): [of_shipped(compute(each, out / "runs")) for each in shipped_ensemble(scene, *place)] for scene in shipped for place in scene.members}
 
 
 def _cell_text(key, stats):
@@ -44,11 +51,13 @@ def _cell_text(key, stats):
     return middle if least == most else f"{middle} ({least} … {most})"
 
 
-def _ratio(found, key, setting, cell):
-    """Of the medians of a setting and the base; None where either lacks it."""
-    if (setting, cell) not in found:
-        return None
-    one, other = found[setting, cell][key]["median"], found[base.name, cell][key]["median"]
+def _heads(title, chosen):
+    return [title, "cell (mm)", *[f"{label} ({unit})" if unit else label for label, unit, _ in chosen.values()]]
+
+
+def _ratio(found, key, of, to):
+    """Of the medians at two places, (setting, cell); None where either lacks the measure."""
+    one, other = (found[place][key]["median"] if place in found else None for place in (of, to))
     return one / other if one and other else None
 
 
@@ -60,30 +69,51 @@ def report(quick, out):
     orders = []
     for setting in all_settings(quick).values():
         for key in quantities:
-            stats = [found[setting.name, cell][key] for cell in cells_of(setting, quick)]
-            order, limit, verdict = convergence(stats)
+            order, limit, verdict = convergence([found[setting.name, cell][key] for cell in cells_of(setting, quick)])
             orders.append({"setting": setting.name, "measure": key, "order": order, "limit": limit, "verdict": verdict})
     write_csv(out / "tables" / "convergence.csv", list(orders[0]), orders)
     for key, (title, settings) in asked(quick).items():
         figures.group(title[0].upper() + title[1:], settings, found, out / "figures", key)
-    return _page_values(members, found, orders, quick)
+    shipped_members = {} if quick else _measure_shipped(out)
+    if shipped_members:
+        write_csv(out / "tables" / "shipped.csv", ["scene", "cell", "particles_per_cell", "member", *shipped_quantities],
+                  [{"scene": scene, "cell": cell, "particles_per_cell": count, "member": n, **row} for (scene, cell, count), rows in shipped_members.items() for n, row in enumerate(rows, 1)])
+    return _page_values(members, found, orders, shipped_members, quick)
 
 
-def _page_values(members, found, orders, quick):
+def _shipped_table(shipped_members):
+    rows = []
+    for (scene, cell, count), of_members in shipped_members.items():
+        stats = {key: statistics([row[key] for row in of_members]) for key in shipped_quantities}
+        rows.append([f"`{scene}.toml`", cell, count, *[_cell_text(key, stats[key]) for key in shipped_quantities]])
+    return markdown(["scene", "cell (mm)", "particles a cell", *_heads("", shipped_quantities)[2:]], rows) if rows else ""
+
+
+def _page_values(members, found, orders, shipped_members, quick):
     tables = []
     for title, settings in asked(quick).values():
         rows = [[setting.label, cell, *[_cell_text(key, found[setting.name, cell][key]) for key in quantities]] for setting in settings for cell in cells_of(setting, quick)]
-        tables.append(f"### {title[0].upper() + title[1:]}\n\n" + markdown(
-            [title, "cell (mm)", *[f"{label} ({unit})" if unit else label for label, unit, _ in quantities.values()]], rows))
-    verdicts = [[all_settings(quick)[row["setting"]].label if row["setting"] != base.name else base.label, quantities[row["measure"]][0], row["verdict"], row["order"],
+        tables.append(f"### {title[0].upper() + title[1:]}\n\n" + markdown(_heads(title, quantities), rows))
+    labels = {setting.name: setting.label for setting in reversed(all_settings(quick).values())} | {base.name: base.label, four.name: "4 a cell"}
+    verdicts = [[labels[row["setting"]], quantities[row["measure"]][0], row["verdict"], row["order"],
                  None if row["limit"] is None else quantities[row["measure"]][2] * row["limit"]] for row in orders if row["verdict"] != "–"]
-    four = {key: _ratio(found, key, "per-cell-4", "1") for key in ("crack_area", "localised_volume", "localised_particles", "fracture")}
-    return {
-        "runs": sum(len(rows) for rows in members.values()), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
-        "failed": sum(row["fracture"] is None for rows in members.values() for row in rows), "full": not quick,
-        "verdicts": markdown(["setting", "measure", "over the cells", "order", "limit"], verdicts) if verdicts else "",
-        "tables": "\n\n".join(tables), "area_ratio": number(four["crack_area"]), "volume_ratio": number(four["localised_volume"]),
-        "particle_ratio": number(four["localised_particles"]), "energy_ratio": number(four["fracture"]),
+    ratios = {"particle": ("localised_particles", four, base, "1"), "volume": ("localised_volume", four, base, "1"), "area": ("crack_area", four, base, "1"),
+              "energy": ("fracture", four, base, "1")}
+    if not quick:
+        ratios |= {"inner": ("inner_area", four, base, "1"), "strength": ("strength", four, base, "1"), "paper_area": ("crack_area", paper_four, paper, "1"),
+                   "fixed_area": ("crack_area", fixed_four, fixed, "1"), "fine_area": ("crack_area", four, base, "0.5")}
+    values = {f"{name}_ratio": number(_ratio(found, key, (of.name, cell), (to.name, cell))) for name, (key, of, to, cell) in ratios.items()}
+    if not quick:
+        values |= {"spacing_area_ratio": number(_ratio(found, "crack_area", (four.name, "1"), (base.name, "0.5"))),
+                   "spacing_energy_ratio": number(_ratio(found, "fracture", (four.name, "1"), (base.name, "0.5"))),
+                   "halved_area_ratio": number(_ratio(found, "crack_area", (base.name, "0.5"), (base.name, "1")))}
+    else:
+        values |= dict.fromkeys(("inner_ratio", "strength_ratio", "paper_area_ratio", "fixed_area_ratio", "fine_area_ratio", "spacing_area_ratio", "spacing_energy_ratio", "halved_area_ratio"), "")
+    rows = [row for each in (members, shipped_members) for of_place in each.values() for row in of_place]
+    return values | {
+        "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
+        "failed": sum(row["residual"] is None for row in rows), "full": not quick, "shipped": _shipped_table(shipped_members),
+        "verdicts": markdown(["setting", "measure", "over the cells", "order", "limit"], verdicts) if verdicts else "", "tables": "\n\n".join(tables),
         "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}](figures/{key}.png)" for key, (title, _) in asked(quick).items()),
     }
 
