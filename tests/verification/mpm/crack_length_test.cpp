@@ -22,9 +22,10 @@ MpmScene weak_rows(int n, int rows, const Integrator& integrator) {
   MpmScene scene;
   scene.cell = cell, scene.density = 2500.0, scene.young = 72e9, scene.poisson = 0.25;
   integrator.choose(scene);
+  scene.pace = (scene.method == "explicit" ? "step = " : "fixed_step = ") + number(2.5e-9);
   const double width = rows * cell / n, end = 5e-3;
   const std::string more =
-      fmt::format("particles_per_cell = {}\nvelocity_gradient = [[10000, 0], [0, 0]]", n * n);
+      fmt::format("particles_per_cell = {}\nvelocity_gradient = [[9000, 0], [0, 0]]", n * n);
   std::string middle = body("weak", box({0.0, 0.0}, {width, cell}), more);
   middle.replace(middle.find("elastic"), 7, "glass");
   scene.tables = "[contact]\nmethod = \"single\"\n" + hold_everywhere("y") +
@@ -78,7 +79,7 @@ TEST_CASE(
         energy += part * opening * column(weak, "cohesive_strength")[i] * lambda * (1.0 - 0.5 * lambda);
         least = std::min(least, lambda);
       }
-      REQUIRE(least > 0.4);
+      CHECK(least > 0.3);
       CHECK(area == Approx(cell).epsilon(1e-9));
       // In the step of the onset the length is still that of the cell.
       CHECK(run.energy().fracture == Approx(energy).epsilon(0.03));
