@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "integrators/sundials/klu_factors.hpp"
 #include "mpm/centroids.hpp"
@@ -62,20 +63,23 @@ class AtRest {
   std::vector<VectorColumns> velocities_;
 };
 
-/// Takes strain and turn increments into the elastic strain.
-void strain_elastically(Body& body) {
-  Particles& p = body.particles;
-  for (std::size_t i = 0; i < p.size; ++i) {
-    const SymmetricTensor strained = tensor_at(p.elastic_strain, i) + tensor_at(p.strain_increment, i);
-    put_tensor(p.elastic_strain, i, rotate(strained, rotation_by(p.spin_increment[i])));
-    if (!p.turn.empty()) p.turn[i] += p.spin_increment[i];
+/// Strains of a small displacement of the nodes, added to the bodies' where they stand.
+void strain_elastically(System& system, std::span<const mpm::ParticleGradient> gradients) {
+  mpm::gather_gradient(system, gradients);
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    TensorColumns& strain = system.bodies[n].particles.elastic_strain;
+    const auto& [rr, rz, zr, zz, tt] = gradients[n].gradient;
+    for (std::size_t i = 0; i < system.bodies[n].on_grid(); ++i)
+      put_tensor(strain, i,
+                 tensor_at(strain, i) + SymmetricTensor{rr[i], zz[i], tt[i], 0.5 * (rz[i] + zr[i])});
   }
 }
 
-/// One of Newton's iterations.
-class Iteration {
+/// The nodes' equations of equilibrium with the particles where they stand.
+class Equilibrium {
  public:
-  Iteration(System& system, double inertia) : system_(system), inertia_(inertia) {
+  Equilibrium(System& system, double inertia)
+      : system_(system), inertia_(inertia), columns_(system.bodies.size()), gradients_(system.bodies.size()) {
     system.grid_is_stale = true;
     mpm::refresh_grid(system);
     mpm::find_centroids(system);
@@ -83,9 +87,17 @@ class Iteration {
     mpm::project_velocities(system);
     mpm::number_unknowns(system, nodes_);
     stiffness_.lay_out(system, nodes_);
+    for (std::size_t n = 0; n < columns_.size(); ++n) {
+      system.bodies[n].particles.keep_increments();
+      for (std::size_t k = 0; k < 5; ++k) {
+        columns_[n][k].resize(system.bodies[n].particles.size);
+        gradients_[n].gradient[k] = columns_[n][k].data();
+      }
+    }
   }
 
-  /// Energy that the forces could release, J (per radian or per metre); finds the displacements that would.
+  /// One of Newton's iterations. Energy that the forces could release, J (per radian or per metre); finds the
+  /// displacements that would.
   double solve() {
     const std::size_t n = nodes_.size();
     if (n == 0) return 0.0;
@@ -98,20 +110,13 @@ class Iteration {
     if (factors.factor(values.data()) != sundials::KluFactors::Outcome::done)
       throw ComputationError("relaxation: the stiffness of the bodies cannot be factored");
     factors.solve(displacement_.data());
-    double energy = 0.0;
-    for (std::size_t k = 0; k < n; ++k) energy += 0.5 * force[k] * displacement_[k];
-    return energy;
+    return 0.5 * std::inner_product(force.begin(), force.end(), displacement_.begin(), 0.0);
   }
 
-  /// Moves and strains the particles.
-  void move() {
+  void strain() {
     const mpm::OfBoundaries still(system_.grid.boundaries().size());
-    for (const Field to : {Field::velocity_0, Field::new_velocity_0})
-      mpm::fill_field(system_, nodes_, displacement_.data(), still, to);
-    mpm::gather(system_, mpm::Gather::strain, 1.0);
-    for (Body& body : system_.bodies)
-      if (body.on_grid() > 0) strain_elastically(body);
-    mpm::gather(system_, mpm::Gather::position, 1.0);
+    mpm::fill_field(system_, nodes_, displacement_.data(), still, Field::velocity_0);
+    strain_elastically(system_, gradients_);
   }
 
  private:
@@ -128,32 +133,22 @@ class Iteration {
   }
 
   void assemble(std::vector<double>& values) {
-    std::vector<std::array<std::vector<double>, 5>> zero(system_.bodies.size());
-    std::vector<mpm::ParticleGradient> gradients(system_.bodies.size());
-    for (std::size_t b = 0; b < zero.size(); ++b) {
-      Particles& p = system_.bodies[b].particles;
-      p.keep_increments();
-      for (auto& column : p.strain_increment) std::fill(column.begin(), column.end(), 0.0);
-      std::fill(p.spin_increment.begin(), p.spin_increment.end(), 0.0);
-      for (std::size_t k = 0; k < 5; ++k) {
-        zero[b][k].assign(p.size, 0.0);
-        gradients[b].gradient[k] = zero[b][k].data();
-      }
-    }
+    for (auto& body : columns_)
+      for (std::vector<double>& column : body) std::fill(column.begin(), column.end(), 0.0);
     mpm::Trial trial(system_, mpm::Trial::Moves::nodes);
     std::vector<std::vector<TangentEntries>> tangents;
-    {
-      const mpm::Trial::Scope scope(system_, trial);
-      constexpr double instant = 1e-12;  // s: too short to flow, relax or break
-      mpm::gather_tangents(system_, trial, instant, tangents);
-      stiffness_.assemble(system_, nodes_, gradients, tangents, values);
-    }
+    const mpm::Trial::Scope scope(system_, trial);
+    constexpr double instant = 1e-12;  // s: too short to flow, relax or break
+    mpm::gather_tangents(system_, trial, instant, tangents);
+    stiffness_.assemble(system_, nodes_, gradients_, tangents, values);
   }
 
   System& system_;
   double inertia_;
   mpm::NodalUnknowns nodes_;
   mpm::Stiffness stiffness_;
+  std::vector<std::array<std::vector<double>, 5>> columns_;
+  std::vector<mpm::ParticleGradient> gradients_;
   std::vector<double> displacement_;
 };
 
@@ -176,13 +171,13 @@ Relaxation relax(System& system, const std::vector<bool>& relaxed) {
   constexpr int most = 30;
   constexpr double enough = 1e-11;
   Relaxation result;
+  Equilibrium equilibrium(system, inertia);
   for (; result.iterations < most; ++result.iterations) {
-    Iteration iteration(system, inertia);
-    const double energy = iteration.solve(), stored = stored_energy(system);
+    const double energy = equilibrium.solve(), stored = stored_energy(system);
     result.residual = stored > 0.0 ? energy / stored : energy;
     if (!std::isfinite(result.residual)) break;
     if (result.residual <= enough) return result;
-    iteration.move();
+    equilibrium.strain();
   }
   throw ComputationError(fmt::format(
       "relaxation has found no equilibrium in {} iterations: the forces left could release {:.3g} of the "

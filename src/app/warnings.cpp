@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "app/demands.hpp"
 #include "app/encounters.hpp"
 #include "app/material_warnings.hpp"
 #include "app/plausibility.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "observe/probes.hpp"
 #include "scene/boundary_checks.hpp"
-#include "integrators/grid/grid_method.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_text.hpp"
 
@@ -77,6 +78,27 @@ void warn_of_long_phases(const Scene& scene, const System& system, const Critica
                     scene.at("integrator.remap"), coarse->name, phase));
 }
 
+/// One particle a cell off the middles of cells: wide functions have a shear there that no particle sees, and
+/// what it can move bears no stress in equilibrium (theory 2.12).
+void warn_of_relaxation(const Scene& scene, Warnings& list) {
+  if (scene.shape_functions == mpm::ShapeKind::linear) return;
+  for (std::size_t n = 0; n < scene.bodies.size(); ++n) {
+    const BodyDefinition& body = scene.bodies[n];
+    const Box* box = std::get_if<Box>(&body.shape);
+    if (!body.relax || body.particles_per_cell > 1 || box == nullptr) continue;
+    double off = 0.0;
+    for (const Vector2& corner : {box->min, box->max})
+      for (const double x : corner)
+        off = std::max(off, std::abs(x / scene.cell - std::round(x / scene.cell)));
+    if (off > 1e-6)
+      list.push_back(fmt::format(
+          "{}: the faces of body '{}' are up to {:.2g} cells off the lines of the grid: with one particle a "
+          "cell a stress that varies across it is then lost in equilibrium, up to all of it at a face; place "
+          "them on lines or use particles_per_cell = 4",
+          scene.at(fmt::format("body.{}.relax", n)), body.name, off));
+  }
+}
+
 /// A plane on which the traction falls faster than the cell behind it can unload releases at once.
 void warn_of_snap_back(const Scene& scene, Warnings& list) {
   for (const MaterialParameters& m : scene.materials) {
@@ -102,6 +124,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);
   warn_of_long_phases(scene, system, critical, list);
+  warn_of_relaxation(scene, list);
   warn_of_snap_back(scene, list);
   for (const MaterialParameters& m : scene.materials)
     std::ranges::move(material_warnings(m), std::back_inserter(list));

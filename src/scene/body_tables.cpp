@@ -160,9 +160,9 @@ const Table& body_table() {
                   "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
              .over_place(),
          {"relax", &B::relax,
-          "before the start, find the equilibrium of the stress under the loads that act then: particles "
-          "move and "
-          "strain, elastically and with no velocity"},
+          "before the start, find the stress nearest to that given which is in equilibrium under the loads "
+          "that "
+          "act then, elastically; nothing moves"},
          {"perturbation", &B::perturbation, perturbation_table(),
           "random displacements of the particles, for ensembles; absent: none"}});
     t.alternatives = {{{shape_names.begin(), shape_names.end()}, "shape"}};
