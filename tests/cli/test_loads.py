@@ -77,6 +77,16 @@ class Examples(CommandLineTest):
         self.assertLess(momentum, 2.11e6 * 0.152 * 60e-6)
         self.assertLess(abs(summary["energy"]["relative_residual"]), 0.05)
 
+    def test_tempered_drop(self):
+        """A fall that annealed glass does not bear, and tempered glass does."""
+        for stress, breaks in ((100e6, False), (0.0, True)):
+            out = self.run_scene(f"S{stress:g}", *overrides(space__cell=1e-3, parameters__fall=1.25, parameters__S=stress),
+                                 scene=examples / "tempered_drop.toml")
+            summary = read_summary(out)
+            self.assertEqual(summary["status"], "complete")
+            self.assertEqual(summary["failure"]["first_damage"] is not None, breaks)
+            self.assertLess(abs(summary["energy"]["relative_residual"]), 0.01)
+
     def test_ring_on_ring(self):
         out = self.run_scene("out", *overrides(space__cell=1.5e-3, time__end=0.4e-3), scene=examples / "ring_on_ring.toml")
         summary = read_summary(out)
