@@ -79,7 +79,7 @@ void warn_of_long_phases(const Scene& scene, const System& system, const Critica
 }
 
 /// One particle a cell off the middles of cells: wide functions have a shear there that no particle sees, and
-/// what it can move bears no stress in equilibrium (theory 2.12).
+/// what it can move bears no stress in equilibrium (docs/theory/loads.md).
 void warn_of_relaxation(const Scene& scene, Warnings& list) {
   if (scene.shape_functions == mpm::ShapeKind::linear) return;
   for (std::size_t n = 0; n < scene.bodies.size(); ++n) {

@@ -64,7 +64,8 @@ TEST_CASE("Relaxing moves nothing, and far from the rim changes little", "[verif
     for (const char* shape : {"linear", "gimp", "bspline2"})
       for (const int per_cell : {1, 4, 9}) {
         CAPTURE(geometry, shape, per_cell);
-        // Wide functions hold a profile with one particle a cell in the middles of cells alone (theory 2.12).
+        // Wide functions hold a profile with one particle a cell in the middles of cells alone
+        // (docs/theory/loads.md).
         const double foot = per_cell == 1 ? 0.0 : 0.3;
         const MpmRun run(tempered(geometry, shape, per_cell, true, foot)),
             given(tempered(geometry, shape, per_cell, false, foot));
@@ -110,7 +111,8 @@ TEST_CASE("A relaxed plate stays at rest in every integrator", "[verification][m
         std::array{"arkode-implicit", "musl", "rtol = 1e-3"}})
     for (const int per_cell : {1, 4}) {
       CAPTURE(method, scheme, per_cell);
-      // USL amplifies rounding wherever a node is nearly empty (theory 2.4): wide functions always make some.
+      // USL amplifies rounding wherever a node is nearly empty (docs/theory/explicit.md): wide functions
+      // always make some.
       const bool usl = scheme == std::string("usl");
       MpmScene scene = tempered("axisymmetric", usl ? "linear" : "gimp", per_cell, true);
       scene.method = method, scene.scheme = scheme, scene.pace = pace;
