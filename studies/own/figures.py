@@ -4,8 +4,7 @@ import textwrap
 import numpy as np
 from matplotlib.ticker import LogLocator
 from study.figures import colours, legend_below, markers, plt
-
-from own.measure import field_of_velocity
+from study.ladders import field_of_velocity
 
 kinds = {"time": "time integration", "local": "local tolerance", "space": "space", "chaos": "chaos (ensemble)"}
 
@@ -22,7 +21,7 @@ def _titled(axes, text):
     axes.set_title("\n".join(textwrap.wrap(text, 38)), fontsize=8.5)
 
 
-def work_precision(rows):
+def work_precision(rows, title):
     """Error of each quantity, and of the velocity field, over wall time; of the field over right-hand sides too. Grey: what the references differ by."""
     quantities = [(name, "seconds") for name in dict.fromkeys(row["quantity"] for row in rows)] + [(field_of_velocity, "rhs_evaluations")]
     shown = [(name, x) for name, x in quantities if any(row["quantity"] == name and row["error"] for row in rows)]
@@ -49,6 +48,8 @@ def work_precision(rows):
         _titled(axes, name)
         axes.set_xlabel("wall time (s)" if x == "seconds" else "right-hand sides")
         axes.set_ylabel("error (–)")
+    if title:
+        figure.suptitle(title)
     handles = {label: handle for axes in panels for handle, label in zip(*axes.get_legend_handles_labels())}
     legend_below(figure, list(handles.values()), list(handles))
     return figure

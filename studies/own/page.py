@@ -1,40 +1,51 @@
-"""Tables, figures and the page of a study."""
+"""Tables, figures and the page of a study that is told by files; while it runs, the page of what is there."""
 import datetime
+import functools
 import pathlib
 
 import jinja2
 import matplotlib
+from study import bars, ladders, plan as plans, progress, sweep
 from study.figures import plt, save, style
 from study.page import machine, run_times
 from study.provenance import commit, version
+from study.results import Study, case_rows
 from study.tables import number, write_csv
 from vitrum.report import charts
 
-from own import figures, measure
+from own import figures
 
 here = pathlib.Path(__file__).resolve().parent
 css = here.parent / "vitrum/report/page.css"
+shown_of_failed = 50  # runs that did not come to their end, in the page
 
 
-def _drawn(draw, folder, name):
-    """The figure for paper, as PNG and PDF, and as part of the page; None where there is nothing to draw."""
-    figure = draw()
-    if figure is None:
-        return None
-    save(figure, folder, name)
-    with matplotlib.rc_context({**matplotlib.rcParamsDefault, **charts.style, "font.size": 9, "axes.titlesize": 8.5}):
+class Sheet:
+    """Where a study's tables and figures go: into files and the page, or, of a study that is under way, into the page alone."""
+
+    def __init__(self, study, write):
+        self.study, self.write = study, write
+
+    def _name(self, name):
+        return "-".join(filter(None, (self.study.plan["key"], name)))
+
+    def table(self, name, rows):
+        if self.write:
+            write_csv(self.study.out / "tables" / f"{self._name(name)}.csv", list(dict.fromkeys(key for row in rows for key in row)), rows)
+
+    def figure(self, name, draw):
+        """SVG for the page; PNG and PDF for paper. None where there is nothing to draw."""
         figure = draw()
-        text = charts.svg(figure, name)
+        if figure is None:
+            return None
+        if self.write:
+            save(figure, self.study.out / "figures", self._name(name))
         plt.close(figure)
-    return text
-
-
-def _columns(rows):
-    return list(dict.fromkeys(key for row in rows for key in row))
-
-
-def _table(folder, name, rows):
-    write_csv(folder / f"{name}.csv", _columns(rows), rows)
+        with matplotlib.rc_context({**matplotlib.rcParamsDefault, **charts.style, "font.size": 9, "axes.titlesize": 8.5}):
+            figure = draw()
+            text = charts.svg(figure, self._name(name))
+            plt.close(figure)
+        return text
 
 
 def _percent(share, digits=2):
@@ -50,70 +61,95 @@ def _with_unit(value, unit):
     return f"{number(value, 4)} {unit}".strip()
 
 
-def _trade(study, out):
-    rows = list(measure.trade_rows(study))
-    advice = list(measure.recommendations(rows))
-    _table(out / "tables", "trade", rows)
-    _table(out / "tables", "recommendations", advice)
-    idle = {(row["method"], row["setting"]): row["tolerance_idle"] for row in rows if row.get("tolerance_idle")}
-    return {"figure": _drawn(lambda: figures.work_precision(rows), out / "figures", "trade"),
-            "references": [study.cases[name]["method"] for name in study.named("reference")],
-            "advice": [(row["quantity"], _percent(row["level"]), row["advice"], number(row.get("seconds")), _percent(row.get("error")), _percent(row["references_apart"])) for row in advice],
-            "idle": [f"{method}, {setting}: the tolerance was idle in {_percent(share)} of the steps, which stability limited" for (method, setting), share in idle.items()],
-            "failed": sorted({f"{row['method']}, {row['setting']}: {row['status']}" for row in rows if row["status"] != "complete"})}
+def _trade(study, sheet):
+    rows = list(ladders.trade_rows(study))
+    advice = list(ladders.recommendations(rows))
+    sheet.table("trade", rows)
+    sheet.table("recommendations", advice)
+    points = list(dict.fromkeys(row["point"] for row in rows))
+    labels = {point: sweep.label(study, point) for point in points}
+    idle = {(labels[row["point"]], row["method"], row["setting"]): row["tolerance_idle"] for row in rows if row.get("tolerance_idle")}
+    return {"figures": [text for point in points for text in [sheet.figure("-".join(["trade", *([str(point)] if point is not None else [])]), functools.partial(
+                figures.work_precision, [row for row in rows if row["point"] == point], labels[point]))] if text],
+            "references": list(dict.fromkeys(study.cases[name]["method"] for name in study.named_any("reference"))), "points": len(points) > 1,
+            "advice": [(*([labels[row["point"]]] if len(points) > 1 else []), row["quantity"], _percent(row["level"]), row["advice"], number(row.get("seconds")), _percent(row.get("error")),
+                        _percent(row["references_apart"])) for row in advice],
+            "idle": [f"{', '.join(filter(None, where))}: the tolerance was idle in {_percent(share)} of the steps, which stability limited" for where, share in idle.items()],
+            "failed": sorted({", ".join(filter(None, (labels[row["point"]], row["method"], f"{row['setting']}: {row['status']}"))) for row in rows if row["status"] not in ("complete", "to come")})}
 
 
-def _error_bars(study, out):
-    found = list(measure.bar_rows(study))
-    rows = [row for _, row in found]
-    _table(out / "tables", "error_bars", rows)
-    every = [bars for bars, _ in found]
-    efforts = {}  # effort -> what it moves, of all scales together, and its seconds
-    for bars in every:
-        if bars.largest not in (None, "chaos"):
-            for effort, (kind, moved, seconds) in bars.efforts.items():
-                if kind == bars.largest and bars.relative[kind] > study.plan["converged"]:
-                    total, _ = efforts.get(effort, (0.0, 0.0))
-                    efforts[effort] = total + moved, seconds
-    best = max(efforts, key=lambda effort: efforts[effort][0] / efforts[effort][1], default=None)
+def _error_bars(study, sheet):
+    found = list(bars.bar_rows(study))
+    rows, every, converged = [row for _, row in found], [each for each, _ in found], study.plan["converged"]
+    sheet.table("error_bars", rows)
+
     def bar(row, kind):
         return "" if row[kind] is None else f"±{_with_unit(row[kind], row['unit'])}"
-    return {"figure": _drawn(lambda: figures.error_bars(every, study.plan["converged"]), out / "figures", "error-bars"),
-            "members": _drawn(lambda: figures.members(every), out / "figures", "members"),
-            "rows": [(row["quantity"], _with_unit(row["value"], row["unit"]), *[bar(row, kind) for kind in figures.kinds], row["verdict"], row["effort"]) for row in rows],
-            "distributions": [f"{row['quantity']}: mean {_with_unit(row['mean'], row['unit'])}; as it is and finer in time "
-                              + ("differ" if row["same_distribution"] < 0.05 else "do not differ more than chance") + f" (Kolmogorov-Smirnov, p = {row['same_distribution']:.2g}, "
-                              f"{len(bars.members)} and {len(bars.finer)} members)" for bars, row in found if row["verdict"] == "chaotic" and row["same_distribution"] is not None],
-            "best": None if best is None else f"{best[0].upper()}{best[1:]} takes most off the largest bars for its time: "
-                    f"{_percent(efforts[best][0])} of the quantities' scales together, for {number(efforts[best][1], 2)} s more a run."}
+
+    return {"figure": sheet.figure("error-bars", lambda: figures.error_bars(every, converged)), "members": sheet.figure("members", lambda: figures.members(every)),
+            "rows": [(row["quantity"], _with_unit(row["value"], row["unit"]), *[bar(row, kind) for kind in bars.kinds], row["verdict"], row["effort"]) for row in rows],
+            "distributions": [_compared(each, row) for each, row in found if row["verdict"] == "chaotic" and row["same_distribution"] is not None],
+            "best": bars.best_of_all(every, converged), "count": study.plan["members"], "converged": _percent(converged)}
 
 
-def _sweep(study, out):
-    rows = list(measure.sweep_rows(study))
-    _table(out / "tables", "sweep", rows)
+def _compared(each, row):
+    """What the two ensembles of a chaotic quantity say of each other."""
+    return (f"{row['quantity']}: mean {_with_unit(row['mean'], row['unit'])}; as it is and finer in time {'differ' if row['same_distribution'] < 0.05 else 'do not differ more than chance'} "
+            f"(Kolmogorov-Smirnov, p = {row['same_distribution']:.2g}, {len(each.members)} and {len(each.finer)} members)")
+
+
+def _cell(value):
+    return value if isinstance(value, str) else number(value, 4)
+
+
+def _sweep(study, sheet):
+    rows = list(sweep.sweep_rows(study))
+    sheet.table("sweep", rows)
     shown = [*study.plan["varied"], "status", *[quantity.name for quantity in study.quantities]]
+
     def cell(row, key):
         bar = row.get(f"± {key}")
-        return (number(row.get(key), 4) if not isinstance(row.get(key), str) else row[key]) + (f" ±{number(bar, 2)}" if bar is not None else "")
-    return {"figure": _drawn(lambda: figures.sweep(rows, study.plan["varied"], study.quantities), out / "figures", "sweep"),
-            "header": shown, "rows": [[cell(row, key) for key in shown] for row in rows]}
+        return _cell(row.get(key)) + (f" ±{number(bar, 2)}" if bar is not None else "")
+
+    return {"figure": sheet.figure("sweep", lambda: figures.sweep(rows, study.plan["varied"], study.quantities)), "header": shown, "rows": [[cell(row, key) for key in shown] for row in rows]}
 
 
-def write(out, quick):
-    """tables/*.csv, figures/*.png and *.pdf, report.html."""
+def _methods(study, sheet):
+    rows = list(sweep.method_rows(study))
+    sheet.table("methods", rows)
+    groups = {}  # a line of the page: a point, a method, a rung
+    for row in rows:
+        line = groups.setdefault((*(row[key] for key in study.plan["varied"]), study.plan["titles"][row["method"]], row["setting"], row["status"], row["members"]), {})
+        line[row["quantity"]] = "–" if not row["n"] else _cell(row["median"]) + (f" ({_cell(row['p05'])} … {_cell(row['p95'])})" if row["n"] > 1 else "")
+    names = [quantity.name for quantity in study.quantities]
+    return {"header": [*study.plan["varied"], "method", "setting", "status", "members", *names],
+            "rows": [[*map(_cell, where), *[line.get(name, "–") for name in names]] for where, line in groups.items()]}
+
+
+_parts = {"trade": _trade, "error-bars": _error_bars, "sweep": _sweep, "methods": _methods}
+
+
+def _section(study, write):
+    """What the page says of one file."""
+    sheet, cases = Sheet(study, write), list(case_rows(study))
+    sheet.table("cases", cases)
+    plan = study.plan
+    failed = [(row["case"], row["status"], row["message"]) for row in cases if row["status"] not in ("complete", "to come")]
+    return {"title": plan["title"], "runs": sum(map(len, plans.jobs(plan).values())), "failed": failed[:shown_of_failed], "failures": len(failed), "scene": plan["scene"],
+            "verbatim": pathlib.Path(plan["scene"]).read_text(), "file": plan["file"], "text": pathlib.Path(plan["file"]).read_text(),
+            **{kind.replace("-", "_"): make(study, sheet) if kind in plan["kinds"] else None for kind, make in _parts.items()}}
+
+
+def write(out, quick, refresh=None):
+    """report.html; with tables/*.csv, figures/*.png and *.pdf where the study is done. `refresh`: of one that is under way, seconds after which a browser reads the page again."""
     plt.rcParams.update(style)
-    study = measure.Study(out)
-    cases = list(measure.case_rows(study))
-    _table(out / "tables", "cases", cases)
-    parts = {key: make(study, out) if kind in study.plan["kinds"] else None
-             for kind, key, make in (("trade", "trade", _trade), ("error-bars", "bars", _error_bars), ("sweep", "sweep", _sweep))}
+    under_way = refresh is not None
+    studies = [Study(pathlib.Path(out), key, partial=under_way) for key in plans.load_all(out)]
     count, seconds = run_times(out)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(here), autoescape=True, undefined=jinja2.StrictUndefined)
     text = environment.get_template("page.html").render(
-        **parts, title=study.plan["title"], css=css.read_text(), quick=quick, scene=study.plan["scene"], file=study.plan["file"], verbatim=pathlib.Path(study.plan["scene"]).read_text(),
-        study_text=pathlib.Path(study.plan["file"]).read_text(), failed=[(row["case"], row["status"], row["message"]) for row in cases if row["status"] != "complete"],
-        cases=len(cases), converged=_percent(study.plan["converged"]), members=study.plan["members"],
+        studies=[_section(study, not under_way) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, progress=progress.read(out) if under_way else None,
         made=f"{version()}; commit {commit()}; {datetime.date.today().isoformat()}; {machine()}; {count:,} runs, {seconds:,.0f} s together")
-    following = out / ".report.html.next"
+    following = pathlib.Path(out) / ".report.html.next"
     following.write_text(text, encoding="utf-8")
-    following.replace(out / "report.html")
+    following.replace(pathlib.Path(out) / "report.html")

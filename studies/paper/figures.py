@@ -11,22 +11,20 @@ from paper.sentences import plate_wave
 
 # The paper shows these: (radius, speed) -> times of its panels (µs).
 shown = {(200, 200): (50, 90, 100, 150), (200, 800): (50, 100, 150), (400, 200): (50, 100, 150, 250)}
-labels = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks": cracks, "fragments": fragments, "fragment-masses": fragment_masses}
+drawn = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks": cracks, "fragments": fragments, "fragment-masses": fragment_masses}
 
 
-def pictures(outcome, times, folder, name):
-    """Snapshots, damage and opening at the paper's times, as far as the run came."""
+def pictures(outcomes, folder):
+    """In the manner of the paper's figures at its times, as far as a run came: all kinds of the resolved run, the snapshots of the paper's step.
+    `outcomes`: by ((radius, speed), treatment)."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):
-        _pictures(outcome.results, times, folder, name)
-
-
-def _pictures(run, times, folder, name):
-    reached = [1e-6 * time for time in times if 1e-6 * time <= run.frames[-1].time + 1e-9] or [run.frames[-1].time]
-    frames = run.frames_at(reached)
-    for kind, draw in labels.items():
-        figure = draw(run, frames)
-        if figure is not None:
-            save(figure, folder, f"{name}-{kind}", stamp.of_run(run))
+        for (case, treatment), outcome in outcomes.items():
+            for kind in {"b": drawn, "a-usf": ["snapshots"]}.get(treatment, []) if case in shown else []:
+                run, name = outcome.results, f"R{case[0]}-v{case[1]}-{treatment}-{kind}"
+                reached = [1e-6 * time for time in shown[case] if 1e-6 * time <= run.frames[-1].time + 1e-9] or [run.frames[-1].time]
+                figure = drawn[kind](run, run.frames_at(reached))
+                if figure is not None:
+                    save(figure, folder, name, stamp.of_run(run))
 
 
 def space_time(histories, title, folder, name):

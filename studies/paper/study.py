@@ -1,34 +1,19 @@
 """The paper's nine cases: which of its sentences does each way of integrating reproduce?"""
 import sys
 
-from paper.cases import all_cases
+from paper.cases import read
 from paper.figures import energies, fronts, pictures, shown, space_time
 from paper.history import History
 from paper.sentences import judge, made_energy, overall, sentences
+from study import plan as plans
 from study.case import as_typed
 from study.command import main
-from study.outcome import Outcome, run as compute
+from study.files import cases, jobs, run  # noqa: F401
 from study.page import paper_title
 from study.tables import markdown, number, write_csv
 
 name = "paper"
 severe_times = (50, 100, 150)  # µs
-
-
-def jobs(quick):
-    return [case.name for case in all_cases(quick).values()]
-
-
-def cases(quick):
-    return list(all_cases(quick).values())
-
-
-def run(job, quick, out):
-    key, case = next((key, case) for key, case in all_cases(quick).items() if case.name == job)
-    outcome = compute(case, out / "runs")
-    radius, speed, _ = key
-    if (radius, speed) in shown:
-        pictures(outcome, shown[radius, speed], out / "figures", job)
 
 
 def _case_row(radius, speed, treatment, history):
@@ -87,9 +72,9 @@ def _case_table(rows, labels):
 
 
 def report(quick, out):
-    every = all_cases(quick)
+    study, every = read(out)
     treatments = list(dict.fromkeys(treatment for _, _, treatment in every))
-    histories = {key: History(Outcome(out / "runs" / case.name)) for key, case in every.items()}
+    histories = {key: History(study.outcome(case)) for key, case in every.items()}
     case_rows = [_case_row(*key, history) for key, history in histories.items()]
     write_csv(out / "tables" / "cases.csv", list(case_rows[0]), case_rows)
     rows = list(_sentence_rows(histories, treatments))
@@ -103,8 +88,8 @@ def report(quick, out):
     resolved = [treatment for treatment in treatments if treatment.resolved and treatment.key in ("b", "c-1e-3", "c-1e-2")][:3]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
-    values = _page_values(every, histories, rows, case_rows, treatments, quick)
-    return values
+    pictures({(key[:2], key[2].key): history.outcome for key, history in histories.items()}, figures)
+    return _page_values(study, every, histories, rows, case_rows, treatments, quick)
 
 
 def _listed(values):
@@ -112,20 +97,20 @@ def _listed(values):
     return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
 
 
-def _page_values(every, histories, rows, case_rows, treatments, quick):
+def _page_values(study, every, histories, rows, case_rows, treatments, quick):
     labels = {treatment.key: treatment.label for treatment in treatments}
     counts = {verdict: [row["sentence"] for row in rows if row["overall"] == verdict] for verdict in
               ("reproduced", "depends on the integration", "only with an unresolved step", "only after a blow-up", "not reproduced", "undecided")}
     resolved = [row for row in case_rows if next(t for t in treatments if t.key == row["treatment"]).resolved]
     unresolved = [row for row in case_rows if row not in resolved]
     decohesion = [row["first_decohesion_us"] for row in resolved if row["speed"] == 200]
-    first = next(case for key, case in every.items() if key[2] == treatments[2])
+    first = plans.case(study.plan, next(case for key, case in every.items() if key[2].key == "b"))
     radii, speeds = (sorted({key[n] for key in every}) for n in (0, 1))
-    ends = sorted({1e6 * case.settings["time.end"] for case in every.values()})
+    ends = sorted({round(1e6 * history.outcome.results.scene["time"]["end"]) for history in histories.values()})
     return {
         "full": not quick, "paper": paper_title, "which": "The nine cases" if not quick else f"{number(len(radii) * len(speeds))} of its nine cases",
-        "radii": _listed(radii), "speeds": _listed(speeds), "ends": _listed(f"{end:g}" for end in ends), "latest": f"{ends[-1]:g}",
-        "resolved_step": f"{1e6 * treatments[2].settings['integrator.step']:g}",
+        "radii": _listed(radii), "speeds": _listed(speeds), "ends": _listed(ends), "latest": ends[-1],
+        "resolved_step": f"{1e6 * first.settings['integrator.step']:g}",
         "sentences": _sentence_table(rows, treatments),
         "cases": _case_table(case_rows, labels),
         "counts": markdown(["outcome", "sentences", "which"], [[verdict, len(keys), ", ".join(keys) or "–"] for verdict, keys in counts.items()]),

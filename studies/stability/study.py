@@ -2,10 +2,12 @@
 import sys
 
 import numpy as np
+from study import files
 from study.command import main
+from study.results import Study
 from study.tables import markdown, number, read_csv, write_csv
 
-from stability import energy, extremes, figures, limits, travel
+from stability import ends, figures, limits, travel
 
 name = "stability"
 tolerated = 1.1  # growth per cell of travel that the table of travelling rows admits
@@ -27,47 +29,34 @@ def _groups(quick):
         groups.setdefault(f"limits-{point.scheme}-{point.shape}", []).append(point)
     for key in _travel_keys(quick):
         groups.setdefault(f"travel-{key[0]}-{key[1]}", []).append(key)
-    for scheme in dict.fromkeys(key[0] for key in energy.cases(quick)):
-        groups[f"energy-{scheme}"] = [key for key in energy.cases(quick) if key[0] == scheme]
-    whats = list(extremes.cases(quick))
-    for n in range(0, len(whats), 6):
-        groups[f"extremes-{n // 6}"] = whats[n:n + 6]
     return groups
 
 
 def jobs(quick):
-    return list(_groups(quick))
+    return [*_groups(quick), *files.jobs(quick)]
 
 
 def cases(quick):
     unit = limits.wave_speed
-    return ([limits.resting_case(point, 0.5) for point in limits.points(quick)]
-            + [travel.case(scheme, shape, n, speed / unit, step / limits.time_unit) for scheme, shape, n, speed, step in _travel_keys(quick)]
-            + list(energy.cases(quick).values()) + list(extremes.cases(quick).values()))
+    return [*(limits.resting_case(point, 0.5) for point in limits.points(quick)),
+            *(travel.case(scheme, shape, n, speed / unit, step / limits.time_unit) for scheme, shape, n, speed, step in _travel_keys(quick)), *files.cases(quick)]
 
 
 def run(job, quick, out):
-    kind, members, runs = job.split("-")[0], _groups(quick)[job], out / "runs"
-    if kind == "limits":
+    """A group of what no file can tell: bisections, and rows in travel whose outputs follow from speed and step."""
+    members, runs = _groups(quick)[job], out / "runs"
+    if job.startswith("limits"):
         rows = [limits.row(point, runs) for point in members]
-    elif kind == "travel":
-        rows = [travel.row(scheme, shape, n, speed / limits.wave_speed, step / limits.time_unit, runs) for scheme, shape, n, speed, step in members]
-    elif kind == "energy":
-        rows = [energy.row(key, energy.cases(quick)[key], runs) for key in members]
     else:
-        rows = [extremes.row(what, extremes.cases(quick)[what], runs) for what in members]
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    write_csv(out / "parts" / f"{job}.csv", columns, rows)
+        rows = [travel.row(scheme, shape, n, speed / limits.wave_speed, step / limits.time_unit, runs) for scheme, shape, n, speed, step in members]
+    write_csv(out / "parts" / f"{job}.csv", list(dict.fromkeys(key for row in rows for key in row)), rows)
 
 
 def _gather(kind, quick, out):
-    rows = [row for job in jobs(quick) if job.split("-")[0] == kind for row in read_csv(out / "parts" / f"{job}.csv")]
-    columns = list(dict.fromkeys(key for row in rows for key in row))
-    write_csv(out / "tables" / f"{kind}.csv", columns, rows)
+    """Rows of all groups of a kind, from the tables that their jobs left."""
+    rows = [row for job in _groups(quick) if job.startswith(kind) for row in read_csv(out / "parts" / f"{job}.csv")]
     for row in rows:
-        for key in ("particles_per_cell", "steps", "separated_plate"):
-            if row.get(key) is not None:
-                row[key] = int(row[key])
+        row["particles_per_cell"] = int(row["particles_per_cell"])
     return rows
 
 
@@ -131,7 +120,11 @@ def _extreme_table(rows):
 
 
 def report(quick, out):
-    found = {kind: _gather(kind, quick, out) for kind in ("limits", "travel", "energy", "extremes")}
+    energy = Study(out, "energy")
+    found = {"limits": _gather("limits", quick, out), "travel": _gather("travel", quick, out), "energy": list(ends.of_energy(energy)),
+             "extremes": list(ends.of_extremes(Study(out, "extremes"), Study(out, "on-nodes")))}
+    for kind, rows in found.items():
+        write_csv(out / "tables" / f"{kind}.csv", list(dict.fromkeys(key for row in rows for key in row)), rows)
     figures.limits(found["limits"], out / "figures", "limits")
     figures.growth(found["travel"], out / "figures", "growth")
     figures.energy(found["energy"], out / "figures", "energy")
@@ -148,7 +141,7 @@ def report(quick, out):
     failed = [row for row in found["extremes"] if row["status"] == "failed"]
     finest = min(key[1] for key in made if key[0] == "musl")
     values = {
-        "full": not quick, "energy_end": f"{1e6 * energy.end(quick):g}", "finest": f"{1e6 * finest:g}", "crossed": travel.travel,
+        "full": not quick, "energy_end": f"{1e6 * energy.scene['time']['end']:g}", "finest": f"{1e6 * finest:g}", "crossed": travel.travel,
         "limit_count": len(deviation), "limit_median": number(100 * float(np.median(deviation)), 2),
         "limit_within": sum(value <= 0.01 for value in deviation), "limit_worst": number(100 * worst["deviation"], 2),
         "limit_worst_where": f"{figures.names[worst['scheme']]}, {worst['shape']}, {worst['particles_per_cell']} per cell, offset {worst['offset']:g}",

@@ -1,6 +1,7 @@
 """A case: one scene, changed by --set. The only place that knows the program's command line."""
 import functools
 import hashlib
+import os
 import subprocess
 from dataclasses import dataclass, field
 
@@ -34,7 +35,7 @@ def check_command(case):
 
 def as_typed(case):
     """The run as one would type it in the project's root."""
-    words = ["vitrum", "run", f"studies/{case.scene}", *case.overrides()]
+    words = ["vitrum", "run", os.path.relpath(studies / case.scene, root), *case.overrides()]
     return " ".join(f"'{word}'" if set(word) & set(' "{[') else word for word in words)
 
 

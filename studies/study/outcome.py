@@ -2,6 +2,7 @@
 import json
 import pathlib
 import subprocess
+import tempfile
 import time
 from functools import cached_property
 
@@ -48,27 +49,59 @@ class Outcome:
     def series(self, name):
         return self.results.columns("series")[name]
 
+    def repeat(self, case, number):
+        """Runs the case once more, for its time alone."""
+        path = self.folder / f"repeat-{number}.json"
+        if path.exists():
+            return
+        with tempfile.TemporaryDirectory(prefix="vitrum-") as scratch:
+            start = time.perf_counter()
+            subprocess.run(run_command(case, scratch), capture_output=True, check=True)
+            record = {"wall_seconds": json.loads((pathlib.Path(scratch) / "summary.json").read_text())["wall_seconds"], "seconds": time.perf_counter() - start}
+        _write_whole(path, record)
 
-def _up_to_date(folder, stamp):
+    def repeats(self):
+        """Wall times (s) of the time loops of further runs."""
+        return [json.loads(path.read_text())["wall_seconds"] for path in sorted(self.folder.glob("repeat-*.json"))]
+
+
+def _write_whole(path, record):
+    """A file that is there is finished."""
+    temporary = path.with_name(f".{path.name}.next")
+    temporary.write_text(json.dumps(record, indent=1))
+    temporary.rename(path)
+
+
+def _place(case, runs):
+    """The folder of a run, and what must be the same for it to be kept."""
+    folder = pathlib.Path(runs) / case.name
+    return folder, {"command": run_command(case, folder), "program": digest(program()), "scene": digest(studies / case.scene)}
+
+
+def kept(case, runs):
+    """The outcome of `case` in the folder `runs`/NAME where it is there, by the same program; else None."""
+    folder, stamp = _place(case, runs)
     path = folder / "outcome.json"
     if not path.exists():
-        return False
+        return None
     record = json.loads(path.read_text())
-    return all(record.get(key) == value for key, value in stamp.items())
+    return Outcome(folder) if all(record.get(key) == value for key, value in stamp.items()) else None
 
 
 def run(case, runs):
-    """The outcome of `case` in the folder `runs`/NAME; a run that is there already, by the same program, is kept."""
-    folder = pathlib.Path(runs) / case.name
-    stamp = {"command": run_command(case, folder), "program": digest(program()), "scene": digest(studies / case.scene)}
-    if not _up_to_date(folder, stamp):
+    """The outcome of `case`, which is computed where it is not kept."""
+    outcome = kept(case, runs)
+    if outcome is None:
+        folder, stamp = _place(case, runs)
         _compute(case, folder, stamp)
-    return Outcome(folder)
+        outcome = Outcome(folder)
+    return outcome
 
 
 def _compute(case, folder, stamp):
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "outcome.json").unlink(missing_ok=True)
+    for old in (folder / "outcome.json", *folder.glob("repeat-*.json")):
+        old.unlink(missing_ok=True)
     start = time.perf_counter()
     try:
         done = subprocess.run(stamp["command"], capture_output=True, text=True, timeout=case.longest)
@@ -79,8 +112,5 @@ def _compute(case, folder, stamp):
         if done.returncode not in results:
             raise StudyError(f"case {case.name}: exit status {done.returncode}: {message}")
         status = "complete" if done.returncode == 0 else "failed"
-    record = {**stamp, "status": status, "message": message, "seconds": time.perf_counter() - start}
-    # Last, and whole: a folder with an outcome is a finished run.
-    temporary = folder / ".outcome.next"
-    temporary.write_text(json.dumps(record, indent=1))
-    temporary.rename(folder / "outcome.json")
+    # Last: a folder with an outcome is a finished run.
+    _write_whole(folder / "outcome.json", {**stamp, "status": status, "message": message, "seconds": time.perf_counter() - start})

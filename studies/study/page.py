@@ -52,8 +52,8 @@ def machine():
 
 
 def run_times(out):
-    """How many runs a study keeps, and how long they took together (s)."""
-    seconds = [json.loads(path.read_text())["seconds"] for path in sorted((pathlib.Path(out) / "runs").rglob("outcome.json"))]
+    """How many times a study has run the program, and how long that took together (s)."""
+    seconds = [json.loads(path.read_text())["seconds"] for name in ("outcome.json", "repeat-*.json") for path in sorted((pathlib.Path(out) / "runs").rglob(name))]
     return len(seconds), sum(seconds)
 
 

@@ -11,9 +11,13 @@ from vitrum.program import program
 os.environ["VITRUM"] = str(program())
 QUICK = "--quick" if str(config.get("quick", 0)) not in ("0", "False", "") else ""
 # Debian's interpreter has h5py and matplotlib; another python3 may stand first on PATH.
-MODULE = f"PYTHONPATH={shlex.quote(str(STUDIES))} PYTHONDONTWRITEBYTECODE=1 VITRUM={shlex.quote(os.environ['VITRUM'])} /usr/bin/python3 -m {STUDY}.study"
+PYTHON = f"PYTHONPATH={shlex.quote(str(STUDIES))} PYTHONDONTWRITEBYTECODE=1 VITRUM={shlex.quote(os.environ['VITRUM'])} /usr/bin/python3 -m"
+MODULE = f"{PYTHON} {STUDY}.study"
 REPORT = globals().get("REPORT", "page.md")
 JOBS = importlib.import_module(f"{STUDY}.study").jobs(bool(QUICK))
+# Jobs of the study's files need none of the study's own module, nor what that draws with.
+OF_FILES = importlib.import_module("study.files").weights()
+importlib.import_module("study.progress").expect({job: OF_FILES.get(job, 1) for job in JOBS})
 
 localrules: all, check
 
@@ -22,7 +26,7 @@ SOURCES = [str(path) for folder in (STUDY, "study", "vitrum", "vitrum/plot") for
     [str(path) for path in sorted(STUDIES.glob("*/*.toml"))]
 
 rule check:
-    input: os.environ["VITRUM"], SOURCES, ["plan.json"] if os.path.exists("plan.json") else []
+    input: os.environ["VITRUM"], SOURCES, sorted(map(str, pathlib.Path(".").glob("plan*.json")))
     output: "checked.txt"
     message: "checking every scene"
     shell: "{MODULE} check {QUICK} > {output}"
@@ -31,7 +35,8 @@ rule job:
     input: "checked.txt"
     output: touch("jobs/{job}.done")
     message: "{wildcards.job}"
-    shell: "{MODULE} run {wildcards.job} {QUICK}"
+    params: module=lambda wildcards: f"{PYTHON} study.files" if wildcards.job in OF_FILES else MODULE
+    shell: "{params.module} run {wildcards.job} {QUICK}"
 
 rule report:
     input: expand("jobs/{job}.done", job=JOBS), [str(path) for pattern in ("*.md", "*.html") for path in sorted((STUDIES / STUDY).glob(pattern))]

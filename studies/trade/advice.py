@@ -1,11 +1,8 @@
 """The cheapest setting for an accuracy."""
-from study.advice import cheapest
+from study.ladders import cheapest, levels
 
 from trade.figures import names as family_names
-from trade.problems import names, problems, title
-
-levels = (0.1, 0.01, 0.001)
-fixed_steps = ("usf", "usl", "musl")
+from trade.problems import fixed_steps
 
 
 def _cheapest(rows, quantity, level, families=None):
@@ -23,15 +20,15 @@ def describe(row):
     return f"{family_names[row['family']]} {setting}" + ("" if row["local"] == "closed-form" else f", {row['local']}")
 
 
-def recommendations(rows, floors, quick):
+def recommendations(problems):
     """One row for each problem, quantity and level; linear shape functions."""
     found = []
-    for key, problem in problems.items():
-        linear = [row for row in rows.get(key, []) if row["shape"] == "linear"]
-        for quantity in names(problem) if linear else []:
-            floor = floors[key]["linear", quantity]
+    for problem in problems.values():
+        linear = problem.linear()
+        for quantity in problem.names:
+            floor = problem.floors["linear", quantity]
             for level in levels:
-                row = {"problem": title(problem, quick), "quantity": quantity, "level": level, "references apart": floor}
+                row = {"problem": problem.title, "quantity": quantity, "level": level, "references apart": floor}
                 if floor is None or floor > level:
                     found.append(row | {"cheapest": "undecidable: the references differ by more"})
                     continue

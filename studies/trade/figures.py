@@ -37,9 +37,9 @@ def _limits(rows, column, floor):
     return 0.4 * low, min(2.5 * max(values), 10.0)
 
 
-def work_precision(rows, floors, label, title, folder, name):
+def work_precision(problem, folder, name):
     """Error of the velocities over wall time and over right-hand sides; a row of panels for each shape function."""
-    shapes = list(dict.fromkeys(row["shape"] for row in rows))
+    rows, floors, shapes = problem.rows, problem.floors, problem.shapes
     families = [family for family in looks if any(row["family"] == family for row in rows)]
     figure, panels = plt.subplots(len(shapes), 2, figsize=(6.8, 2.4 * len(shapes) + 0.9), squeeze=False, sharey="row", sharex="col")
     for line, shape in zip(panels, shapes):
@@ -48,18 +48,18 @@ def work_precision(rows, floors, label, title, folder, name):
             _curves(axes, chosen, x, "velocity", families)
             axes.set_ylim(*_limits(chosen, "velocity", floors.get((shape, "velocity"))))
             _floor(axes, floors.get((shape, "velocity")))
-            axes.set_title(label(shape))
+            axes.set_title(problem.named(shape))
         line[0].set_ylabel("error of velocity (–)")
     panels[-1, 0].set_xlabel("wall time (s)")
     panels[-1, 1].set_xlabel("evaluations of the right-hand side")
-    figure.suptitle(title, fontsize=10)
+    figure.suptitle(problem.title, fontsize=10)
     _legend(figure, families, [Line2D([], [], color="#DDDDDD", linewidth=6, label="references differ")])
     save(figure, folder, name)
 
 
-def quantities(rows, floors, columns, title, folder, name):
+def quantities(problem, folder, name):
     """Error of each quantity over wall time, linear shape functions."""
-    rows = [row for row in rows if row["shape"] == "linear"]
+    rows, floors, columns = problem.linear(), problem.floors, problem.names
     families = [family for family in looks if any(row["family"] == family for row in rows)]
     count = len(columns)
     figure, panels = plt.subplots(-(-count // 2), 2, figsize=(6.8, 2.4 * -(-count // 2) + 0.9), squeeze=False, sharex=True)
@@ -76,25 +76,26 @@ def quantities(rows, floors, columns, title, folder, name):
     for axes in panels.flat[max(0, count - 2):count]:
         axes.set_xlabel("wall time (s)")
         axes.xaxis.set_tick_params(labelbottom=True)
-    figure.suptitle(title, fontsize=10)
+    figure.suptitle(problem.title, fontsize=10)
     _legend(figure, families, [Line2D([], [], color="#DDDDDD", linewidth=6, label="references differ")])
     save(figure, folder, name)
 
 
-def tolerance(rows_by_problem, folder, name):
+def tolerance(problems, folder, name):
     """Achieved over requested, linear shape functions; implicit runs against their own tight run, which has the same remaps."""
-    figure, panels = plt.subplots(len(rows_by_problem), 2, figsize=(6.8, 2.5 * len(rows_by_problem) + 0.8), squeeze=False, sharex=True, sharey="row")
+    figure, panels = plt.subplots(len(problems), 2, figsize=(6.8, 2.5 * len(problems) + 0.8), squeeze=False, sharex=True, sharey="row")
     families = []
-    for line, (title, rows) in zip(panels, rows_by_problem.items()):
+    for line, problem in zip(panels, problems):
+        rows = problem.linear()
         for axes, prefix, column in ((line[0], "erk", "velocity"), (line[1], "dirk", "own velocity")):
-            here = [family for family in looks if family.startswith(prefix) and any(row["family"] == family and row["shape"] == "linear" for row in rows)]
+            here = [family for family in looks if family.startswith(prefix) and any(row["family"] == family for row in rows)]
             families += [family for family in here if family not in families]
-            _curves(axes, [row for row in rows if row["shape"] == "linear"], "tightness", column, here)
+            _curves(axes, rows, "tightness", column, here)
             span = np.array([1e-6, 1e-1])
             axes.loglog(span, span, color="black", linewidth=0.8, linestyle=":")
             if not here:
                 axes.set_visible(False)
-            axes.set_title(f"{title}, {'explicit' if prefix == 'erk' else 'implicit, same remaps'}", fontsize=8)
+            axes.set_title(f"{problem.key}, {'explicit' if prefix == 'erk' else 'implicit, same remaps'}", fontsize=8)
         line[0].set_ylabel("achieved error (–)")
     for axes in panels[-1]:
         axes.set_xlabel("requested rtol")

@@ -1,10 +1,10 @@
 """vitrum from Python: runs scenes and material points, reads what they leave, draws it.
 
     import vitrum
-    run = vitrum.run("plate.toml", {"integrator.courant": 0.2})    # or vitrum.load("out/plate")
+    run = vitrum.run("impact.toml", {"integrator.courant": 0.2})   # or vitrum.load("out/impact")
     run.frames[-1]["velocity"]                                     # N x 2, m/s
     run.events, run.histories["bodies"], run.summary["energy"]
-    vitrum.plot.snapshots(run).savefig("plate.png")
+    vitrum.plot.snapshots(run).savefig("impact.png")
 """
 from __future__ import annotations
 

@@ -35,8 +35,8 @@ def _key(name: str) -> str:
 def toml(value: Any) -> str:
     """The value as TOML; None is `none`, which takes a key away in `--set`.
 
-    >>> toml({"min": [0, 0.5], "name": "ball", "inf": float("inf")})
-    '{min = [0, 0.5], name = "ball", inf = inf}'
+    >>> toml({"min": [0, 0.5], "name": "one", "inf": float("inf")})
+    '{min = [0, 0.5], name = "one", inf = inf}'
     """
     if value is None:
         return "none"

@@ -78,9 +78,9 @@ class Run:
     >>> import vitrum
     >>> from vitrum.program import studies
     >>> blocks = vitrum.run(studies / "trade/impact.toml", {"time.end": 2e-6, "output.every": 1e-6})
-    >>> blocks.bodies, blocks.units["velocity"]
-    (['target', 'striker'], 'm/s')
-    >>> blocks.fields("velocity", "striker").shape
+    >>> len(blocks.bodies), blocks.units["velocity"]
+    (2, 'm/s')
+    >>> blocks.fields("velocity", blocks.bodies[1]).shape
     (3, 480, 2)
     >>> sorted(blocks.histories), [column for column in blocks.series][:2]
     (['bodies'], ['contact', 'crack_area'])

@@ -47,7 +47,7 @@ def run(scene: Source, set: Mapping[str, Any] = {}, out: str | os.PathLike[str] 
     `scene`: a file, its text, or a table (dict). `set`: values by dotted path, None takes a key away. `out`: folder of the results, in which an
     earlier run is replaced; None: a temporary one, which goes when the results do. `threads`: 0 chooses. `fields=False` stores no particles.
 
-    Raises InputError for a wrong scene, ComputationError (with `.run`) for a run that failed, FileError when a disk did.
+    Raises InputError for a wrong scene, ComputationError (with `.run`) for a run that failed, FileError when a file could not be read or written.
 
     >>> from vitrum.program import studies
     >>> blocks = run(studies / "trade/impact.toml", {"time.end": 2e-6, "output.every": 1e-6})

@@ -31,9 +31,9 @@ def read_csv(path: str | os.PathLike[str]) -> Columns:
 def frame(columns: Columns) -> Any:
     """A pandas.DataFrame where pandas is there, else a numpy structured array.
 
-    >>> table = frame({"time": np.array([0.0, 1.0]), "body": np.array(["ball", "plate"])})
+    >>> table = frame({"time": np.array([0.0, 1.0]), "body": np.array(["one", "two"])})
     >>> list(table["body"]), float(table["time"][1])
-    (['ball', 'plate'], 1.0)
+    (['one', 'two'], 1.0)
     """
     try:
         import pandas

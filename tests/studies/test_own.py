@@ -4,12 +4,14 @@ import doctest
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from types import SimpleNamespace
 
@@ -19,8 +21,8 @@ from support import _value, source
 
 sys.path.insert(0, str(source / "studies"))
 
-from own import file, measure, quantities  # noqa: E402
-from own.file import Quantity  # noqa: E402
+from study import bars, file, ladders, plan, progress, quantities, sweep  # noqa: E402
+from study.file import Quantity  # noqa: E402
 from study.outcome import StudyError  # noqa: E402
 
 blocks = source / "studies/trade/impact.toml"
@@ -75,7 +77,6 @@ class StudyFile(Folder):
         self.command(self.folder / "none.toml", status=2)
 
     def test_absent_sections_have_defaults(self):
-        from own import plan
         cases = plan.make(self.write(f'scene = "{blocks}"\n'), False)["cases"]
         roles = [case["role"] for case in cases.values()]
         self.assertEqual([roles.count(role) for role in ("base", "reference", "member", "point")], [1, 2, 20, 0])
@@ -83,6 +84,33 @@ class StudyFile(Folder):
         self.assertEqual(ladders, {"MUSL", "ERK 3", "DIRK 3", "MUSL, substep", "MUSL, cvode"})
         self.assertEqual({case["kind"] for case in cases.values() if case["role"] == "refined"}, {"time", "local", "space"})
         self.assertEqual(len({json.dumps(case["settings"]) for case in cases.values()}), len(cases))
+
+
+class Shipped(unittest.TestCase):
+    maxDiff = None
+    """The four studies that ship are study files, and what only they need."""
+    names = ("paper", "trade", "sensitivity", "stability")
+
+    def test_no_body_has_a_name_in_what_studies_share(self):
+        scenes = [tomllib.loads(path.read_text()) for folder in ("studies", "examples") for path in (source / folder).rglob("*.toml")]
+        bodies = {body["name"] for scene in scenes for body in scene.get("body", [])}
+        self.assertTrue({"plate", "cylinder", "ball", "disk"} <= bodies)
+        named = re.compile(rf"""["']({'|'.join(map(re.escape, bodies))})["']|bodies\.({'|'.join(map(re.escape, bodies))})\b|\b(plate|cylinder|disk|striker|interlayer)\b""")
+        shared = [path for folder in ("study", "own", "vitrum") for path in (source / "studies" / folder).rglob("*") if path.suffix in (".py", ".smk")]
+        self.assertGreater(len(shared), 30)
+        found = [f"{path.name}:{n}: {line.strip()}" for path in [*shared, source / "studies/run", source / "studies/vitrum-study"]
+                 for n, line in enumerate(path.read_text().splitlines(), 1) if named.search(line)]
+        self.assertEqual(found, [])
+
+    def test_their_files_are_read_and_share_runs(self):
+        for name in self.names:
+            with self.subTest(study=name):
+                plans = {key: plan.make(path, quick) for quick in (True, False) for key, path in plan.files_of(name).items()}
+                self.assertTrue(plans)
+                for each in plans.values():
+                    runs = [run for names in plan.jobs({**each, "key": ""}).values() for run in names]
+                    settings = [json.dumps(each["cases"][run]["settings"], sort_keys=True) for run in runs]
+                    self.assertEqual(len(set(settings)), len(settings))
 
 
 class Quantities(unittest.TestCase):
@@ -102,44 +130,43 @@ class Quantities(unittest.TestCase):
 
 class Meaning(unittest.TestCase):
     def rung(self, method, rung, error, seconds, apart=1e-6):
-        return {"quantity": "v", "method": method, "setting": str(rung), "rung": rung, "error": error, "seconds": seconds, "references_apart": apart}
+        return {"point": None, "quantity": "v", "method": method, "setting": str(rung), "rung": rung, "error": error, "seconds": seconds, "references_apart": apart}
 
     def test_no_lucky_hit_is_recommended(self):
         rows = [self.rung("a", 0, 1e-4, 1.0), self.rung("a", 1, 5e-2, 2.0), self.rung("a", 2, 5e-3, 4.0), self.rung("b", 0, 8e-3, 5.0), self.rung("b", 1, 1e-4, 9.0)]
-        advice = {row["level"]: row["advice"] for row in measure.recommendations(rows)}
+        advice = {row["level"]: row["advice"] for row in ladders.recommendations(rows)}
         self.assertEqual(advice, {0.1: "a, 0", 0.01: "a, 2", 0.001: "b, 1"})
 
     def test_below_the_references_nothing_is_decided(self):
-        advice = [row["advice"] for row in measure.recommendations([self.rung("a", 0, 1e-5, 1.0, apart=0.03)])]
+        advice = [row["advice"] for row in ladders.recommendations([self.rung("a", 0, 1e-5, 1.0, apart=0.03)])]
         self.assertEqual(advice[0], "a, 0")
         self.assertTrue(all(each.startswith("undecidable") for each in advice[1:]))
 
-    def bars(self, **relative):
+    def measured(self, **relative):
         efforts = {"half the cell": ("space", 0.03, 6.0), "four times the particles": ("space", 0.02, 1.0), "half the step": ("time", 0.5, 1.0)}
-        return measure.Bars(Quantity("v", "x"), 1.0, 1.0, relative, efforts, [0.9, 1.0, 1.1, 1.0])
+        return bars.Bars(Quantity("v", "x"), 1.0, 1.0, relative, efforts, [0.9, 1.0, 1.1, 1.0])
 
     def test_verdicts(self):
         for relative, expected in (({"time": 1e-3, "space": 9e-3}, "converged"), ({"time": 0.03, "space": 0.02}, "needs a tolerance"), ({"local": 0.03}, "needs a tolerance"),
                                    ({"time": 0.02, "space": 0.03}, "needs cells"), ({"space": 0.02, "chaos": 0.03}, "chaotic"), ({}, "not measured")):
-            self.assertEqual(measure.verdict(self.bars(**relative), 0.01), expected)
-        unsure = self.bars(time=0.0)
+            self.assertEqual(bars.verdict(self.measured(**relative), 0.01), expected)
+        unsure = self.measured(time=0.0)
         unsure.undecided = True
-        self.assertIn("undecided", measure.verdict(unsure, 0.01))
+        self.assertIn("undecided", bars.verdict(unsure, 0.01))
 
     def test_the_best_effort_is_of_the_largest_bar_and_by_the_second(self):
-        self.assertIn("four times the particles: moves it by 2 % for 1 s more", measure.best_effort(self.bars(space=0.03, time=0.01)))
-        self.assertIn("of 4 the mean is known to ±10 %", measure.best_effort(self.bars(chaos=0.2)))
+        self.assertIn("four times the particles: moves it by 2 % for 1 s more", bars.best_effort(self.measured(space=0.03, time=0.01)))
+        self.assertIn("of 4 the mean is known to ±10 %", bars.best_effort(self.measured(chaos=0.2)))
 
     def test_two_settings_differ_or_do_not(self):
         random = np.random.default_rng(3)
         one, same, other = random.normal(0, 1, 40), random.normal(0, 1, 40), random.normal(2, 1, 40)
         for finer, differ in ((same, False), (other, True)):
-            bars = measure.Bars(Quantity("v", "x"), 0.0, 1.0, {}, {}, list(one), list(finer))
-            self.assertEqual(bars.probability < 0.05, differ)
+            found = bars.Bars(Quantity("v", "x"), 0.0, 1.0, {}, {}, list(one), list(finer))
+            self.assertEqual(found.probability < 0.05, differ)
 
     def test_progress(self):
-        from study import advice, progress
-        for module in (advice, progress):
+        for module in (ladders, progress, sweep):
             done = doctest.testmod(module)
             self.assertEqual((done.failed, done.attempted > 0), (0, True))
 
@@ -188,7 +215,7 @@ sweep_bars = ["time"]
         self.assertGreaterEqual(len(before), 5)
         self.assertFalse((out / "report.html").exists())
         said = self.command(path).stderr
-        self.assertRegex(said, r"\d+ of \d+ done, \d+ running, about \d+ s left")
+        self.assertRegex(said, r"\d+ of \d+ cases done, \d+ running, about \d+ s left")
         self.assertEqual({each: finished()[each] for each in before}, before, "finished runs were made again")
 
         cases = {row["case"]: row for row in self.table("cases")}
@@ -203,9 +230,9 @@ sweep_bars = ["time"]
             self.assertLess(errors["MUSL", 2], 0.7 * errors["MUSL", 1])
             self.assertLess(errors["ERK", 1], errors["MUSL", 2])
             self.assertLess(max(row["references_apart"] for row in trade), 1e-4)
-        bars = {row["quantity"]: row for row in self.table("error_bars")}
-        self.assertEqual(set(bars), {"momentum given", "share of the target"})
-        for row in bars.values():
+        measured = {row["quantity"]: row for row in self.table("error_bars")}
+        self.assertEqual(set(measured), {"momentum given", "share of the target"})
+        for row in measured.values():
             self.assertGreater(row["space"], row["chaos"])
             self.assertLess(row["chaos"], 1e-6 * row["scale"])
             self.assertIn(row["verdict"], ("converged", "needs cells", "needs a tolerance"))

@@ -47,10 +47,12 @@ class Resume(unittest.TestCase):
         refusing.write_text("#!/bin/sh\necho \"scene.toml:1:1: key 'x': no\" >&2\nexit 2\n")
         refusing.chmod(0o755)
         environment = {**os.environ, "VITRUM": str(refusing)}
-        done = subprocess.run([source / "studies/run", "paper", self.out, "1"], capture_output=True, text=True, env=environment, timeout=120)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("case R200-v200-b: exit status 2: scene.toml:1:1: key 'x': no", done.stderr)
-        self.assertFalse((self.out / "runs").exists())
+        # A study of a file, and one whose cases are made by its module.
+        for name, expected in (("paper", "error: scene.toml:1:1: key 'x': no"), ("findings", "case pictures/reference: exit status 2: scene.toml:1:1: key 'x': no")):
+            done = subprocess.run([source / "studies/run", name, self.out, "1"], capture_output=True, text=True, env=environment, timeout=120)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(expected, done.stderr)
+            self.assertFalse((self.out / "runs").exists())
 
 
 if __name__ == "__main__":

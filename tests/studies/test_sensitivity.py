@@ -17,21 +17,24 @@ class Sensitivity(StudyTest):
         """All six readings: no label stands on another, every axis spans what matters, and a prediction has one scale in all figures."""
         sys.path.insert(0, str(source / "studies"))
         from sensitivity import figures
-        from sensitivity.ensembles import questions
-        from sensitivity.predictions import matters, quantities, statistics
-        ensembles = {ensemble.name: ensemble for _, each in questions.values() for ensemble in each}
+        from sensitivity.ensembles import base, by_name, questions
+        from sensitivity.predictions import matters, quantities
+        from study import plan
+        from study.sweep import distribution
+        asked = questions(plan.make(source / "studies/sensitivity/study-ensembles.toml", False))
+        ensembles = by_name(asked)
         # All agree but in the last nanometre of a place.
-        members = {name: [{key: (2.0 + (1e-7 * n if name == "substep-1e-6" else 0.0)) / scale for key, (_, _, scale) in quantities.items()} for n in range(3)]
+        members = {name: [{key: (2.0 + (1e-7 * n if name == "local substep 1e-6" else 0.0)) / scale for key, (_, _, scale) in quantities.items()} for n in range(3)]
                    for name in ensembles}
-        found = {name: {key: statistics([row[key] for row in rows]) for key in quantities} for name, rows in members.items()}
+        found = {name: {key: distribution([row[key] for row in rows]) for key in quantities} for name, rows in members.items()}
         limits = figures.scales(found)
         for key, least in matters.items():
             self.assertGreaterEqual(limits[key][1] - limits[key][0], 0.999 * least)
         drawn = []
         keep, figures.save = figures.save, lambda figure, folder, name: drawn.append(figure)
         try:
-            for name, (title, each) in questions.items():
-                figures.question(title, each, members, found, "base", limits, None, name)
+            for name, (title, each) in asked.items():
+                figures.question(title, each, members, found, base, limits, None, name)
         finally:
             figures.save = keep
         scales = set()
@@ -48,7 +51,7 @@ class Sensitivity(StudyTest):
                 for label in axes.get_yticklabels():
                     if label.get_visible():
                         self.assertGreaterEqual(label.get_window_extent(renderer).x0, 0.0, label.get_text())
-        self.assertEqual(len(drawn), len(questions))
+        self.assertEqual(len(drawn), len(asked))
         self.assertEqual(len(scales), 1)
 
     def test_members(self):

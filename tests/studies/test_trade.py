@@ -53,7 +53,7 @@ class Trade(StudyTest):
         for row in rows:
             if row["achieved"] is not None:
                 self.assertLessEqual(row["achieved"], row["level"])
-        tight = next(row for row in rows if row["problem"].startswith("smooth") and row["quantity"] == "velocity" and row["level"] == 0.001)
+        tight = next(row for row in rows if row["problem"].startswith("Smooth") and row["quantity"] == "velocity" and row["level"] == 0.001)
         self.assertIn("ERK", tight["cheapest"])
 
 

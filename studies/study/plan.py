@@ -1,14 +1,16 @@
-"""Which runs a study is made of: made once, when its file is read, and kept as plan.json; every job looks there."""
+"""Which runs a study is made of: made once, when its file is read, and kept as plan.json; every job looks there. A study of several files (study-KEY.toml) has
+a plan of each, plan-KEY.json."""
 import json
 import pathlib
 import re
 import sys
 
-from study.case import Case
-from study.outcome import StudyError
-from vitrum.program import overrides
+from vitrum.errors import Error
+from vitrum.program import overrides, studies
 
-from own.file import Method, answer, grid, read
+from study.case import Case
+from study.file import Method, Rung, answer, bars, grid, read
+from study.outcome import StudyError
 
 tight_rtol, tight_courant = 1e-7, 0.0125
 
@@ -39,13 +41,13 @@ def default_methods(study, quick):
     count = 2 if quick else None
 
     def rungs(values, settings):
-        return tuple((label, settings(each)) for label, each in [(f"{each:g}", each) for each in values][:count])
+        return tuple(Rung(f"{each:g}", settings(each), each) for each in values[:count])
 
     proposed = [Method("MUSL", rungs((0.4, 0.2, 0.1, 0.05), explicit)), Method("ERK 3", rungs((1e-1, 1e-2, 1e-3, 1e-4), lambda rtol: adaptive("explicit", 3, rtol)))]
     if not quick:
         proposed += [Method("DIRK 3", rungs((1e-1, 1e-2, 1e-3), lambda rtol: adaptive("implicit", 3, rtol)))]
         proposed += [Method(f"MUSL, {kind}", rungs((1e-2, 1e-4, 1e-6), lambda rtol, kind=kind: {**explicit(0.2), **local(kind, rtol)})) for kind in ("substep", "cvode")]
-    return [method for method in proposed if admitted(study, method.rungs[0][1])]
+    return [method for method in proposed if admitted(study, method.rungs[0].settings)]
 
 
 def default_references(study):
@@ -95,14 +97,33 @@ def perturbed(study, member):
     return {f"body.{n}.perturbation": {"amplitude": study.amplitude, "seed": 1000 * n + member} for n in range(len(study.resolved["body"]))}
 
 
+def _points(study):
+    """(number, settings) of each point of what varies."""
+    return list(enumerate(grid(study.vary)))
+
+
 def _trade(study, quick, add):
-    methods = study.methods or default_methods(study, quick)
-    references = study.references or default_references(study)
-    for name, settings in references:
-        add("reference", settings, method=name)
-    for method in methods:
-        for rung, (label, settings) in enumerate(method.rungs):
-            add("ladder", settings, method=method.name, setting=label, rung=rung)
+    methods, references = study.methods or default_methods(study, quick), study.references or default_references(study)
+    for point, settings in _points(study) if study.trade_points else [(None, {})]:
+        for name, more in references:
+            add("reference", {**settings, **more}, method=name, point=point)
+        for method in [method for method in methods if method.at(settings)]:
+            if method.tight is not None:
+                add("tight", {**settings, **method.tight}, method=method.name, point=point)
+            for n, rung in enumerate(method.rungs):
+                # A job each ladder: repeats are apart in time, so that one disturbance does not meet all.
+                add("ladder", {**settings, **rung.settings}, method=method.name, setting=rung.label, rung=n, tightness=rung.tightness, point=point,
+                    job=("ladder", point, method.name) if study.repeats > 1 else None)
+
+
+def _methods(study, add):
+    """Every rung of every method at every point."""
+    for point, settings in _points(study) if study.vary else [(None, {})]:
+        for method in [method for method in study.methods if method.at(settings)]:
+            for n, rung in enumerate(method.rungs):
+                for member in range(1, rung.members + 1):
+                    add("rung", {**settings, **rung.settings, **(perturbed(study, member) if rung.members > 1 else {})}, method=method.name, setting=rung.label, rung=n,
+                        tightness=rung.tightness, point=point, **({"member": member, "job": ("rung", point, method.name, rung.label)} if rung.members > 1 else {}))
 
 
 def _bars(study, efforts, kinds, add, point=None, settings=None):
@@ -117,62 +138,93 @@ def _bars(study, efforts, kinds, add, point=None, settings=None):
 
 
 def make(path, quick):
-    """The plan, as JSON takes it: the study's own data, and its cases by name."""
+    """The plan, as JSON takes it: the study's own data, and its cases by name. Cases of the same settings share a run."""
     study = read(path, quick)
-    cases = {}
+    cases, runs = {}, {}
 
-    def add(role, settings, **facts):
+    def add(role, settings, job=None, **facts):
         facts = {key: value for key, value in facts.items() if value is not None}
         name = _slug("-".join([role, *(str(facts[key]) for key in ("point", "method", "setting", "effort", "member", "finer") if key in facts)]))
         while name in cases:
             name += "+"
-        cases[name] = {"role": role, "settings": {**study.settings, **settings}, **facts}
+        settings = {**study.settings, **settings}
+        shared = runs.setdefault(json.dumps(settings, sort_keys=True), name)
+        cases[name] = {"role": role, "settings": settings, "run": shared, "job": cases[shared]["job"] if shared != name else _job(job, name), **facts}
 
-    add("base", {})
+    if "error-bars" in study.kinds:
+        add("base", {})
     if "trade" in study.kinds:
         _trade(study, quick, add)
+    if "methods" in study.kinds:
+        _methods(study, add)
     efforts = refinements(study) if "error-bars" in study.kinds or study.sweep_bars else {}
     if "error-bars" in study.kinds:
-        _bars(study, efforts, ("time", "local", "space", "chaos"), add)
+        _bars(study, efforts, bars, add)
         # The same members under a finer step or tolerance: do two settings differ by more than chance?
         for member in range(1, study.members + 1):
             add("member", {**finer_in_time(study.resolved, 1), **perturbed(study, member)}, member=member, finer="finer")
     if "sweep" in study.kinds:
-        for n, point in enumerate(grid(study.vary)):
+        for n, point in _points(study):
             add("point", point, point=n)
             _bars(study, efforts, study.sweep_bars, add, n, point)
-    return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if "sweep" in study.kinds else [],
-            "varied": list(study.vary), "sweep_bars": study.sweep_bars, "converged": study.converged, "members": study.members, "longest": study.longest,
-            "quantities": [vars(each) for each in study.quantities] if study.quantities else None, "resolved": study.resolved, "cases": cases}
+    return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if study.vary else [],
+            "varied": list(study.vary), "sweep_bars": study.sweep_bars, "repeats": study.repeats, "converged": study.converged, "members": study.members, "longest": study.longest,
+            "titles": {method.name: method.title for method in study.methods}, "quantities": [vars(each) for each in study.quantities] if study.quantities else None,
+            "resolved": study.resolved, "cases": cases}
 
 
-def write(path, quick, out):
+def _job(words, name):
+    """Which job of Snakemake computes the run: its own, or one with others."""
+    return _slug("-".join(str(word) for word in words if word is not None)) if words else name
+
+
+def files_of(name):
+    """Key -> study file: the one that is named, or those of a study that ships (study.toml, study-KEY.toml; some have none)."""
+    if name.endswith(".toml"):
+        return {"": pathlib.Path(name)}
+    return {path.stem.removeprefix("study").removeprefix("-"): path for path in sorted((studies / name).glob("study*.toml"))}
+
+
+def write(path, quick, out, key=""):
     """plan.json in the study's folder, whole at any moment and left alone where it is the same: jobs look at its time."""
-    target = pathlib.Path(out) / "plan.json"
-    text = json.dumps(make(path, quick), indent=1)
+    target = _place(out, key)
+    text = json.dumps({"key": key, **make(path, quick)}, indent=1)
     if not target.exists() or target.read_text() != text:
-        following = target.with_name(".plan.json.next")
+        following = target.with_name(f".{target.name}.next")
         following.write_text(text)
         following.replace(target)
     return json.loads(text)
 
 
-def main(path, out, quick):
-    """Makes the plan; exit status 2 where the file, or the scene with the settings of every case, is wrong."""
+def _place(out, key):
+    return pathlib.Path(out) / (f"plan-{key}.json" if key else "plan.json")
+
+
+def main(name, out, quick):
+    """Makes the plans; exit status 2 where a file, or the scene with the settings of every case, is wrong."""
+    files = files_of(name)
     try:
-        write(path, quick == "1", out)
-    except StudyError as error:
+        for key, path in files.items():
+            write(path, quick == "1", out, key)
+    except (StudyError, Error) as error:
         lines = str(error).splitlines()
         print("\n".join([lines[0] if lines[0].startswith("error: ") else f"error: {lines[0]}", *lines[1:]]), file=sys.stderr)
         return 2
+    for stale in set(pathlib.Path(out).glob("plan*.json")) - {_place(out, key) for key in files}:
+        stale.unlink()
     return 0
 
 
-def load(out):
-    path = pathlib.Path(out) / "plan.json"
+def load(out, key=""):
+    path = _place(out, key)
     if not path.exists():
         raise StudyError(f"{path}: no such file; studies of a file start with ./quickstart study FILE.toml or vitrum-study FILE.toml")
     return json.loads(path.read_text())
+
+
+def load_all(out):
+    """Key -> plan, of every file of the study."""
+    return {plan["key"]: plan for path in sorted(pathlib.Path(out).glob("plan*.json")) for plan in [json.loads(path.read_text())]}
 
 
 # Only the last state, and of its fields the velocity, unless the study's own settings say otherwise.
@@ -180,8 +232,19 @@ lean = {"output.every": 1.0, "output.fields": ["velocity"]}
 
 
 def case(plan, name):
-    entry = plan["cases"][name]
-    return Case(name, plan["scene"], {**lean, **entry["settings"]}, longest=plan["longest"])
+    """What computes a case: its own run, or the one that it shares."""
+    run = plan["cases"][name]["run"]
+    settings = plan["cases"][run]["settings"]
+    return Case("/".join(filter(None, (plan["key"], run))), plan["scene"], {**lean, **settings}, longest=plan["longest"])
+
+
+def jobs(plan):
+    """Job -> names of its runs, each once."""
+    found = {}
+    for name, entry in plan["cases"].items():
+        if entry["run"] == name:
+            found.setdefault("-".join(filter(None, (plan["key"], entry["job"]))), []).append(name)
+    return found
 
 
 def typed(settings):

@@ -5,20 +5,21 @@ import operator
 import re
 
 import numpy as np
+from study.file import Quantity
 from study.outcome import StudyError
 
-from own.file import Quantity
 
 _operations = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow,
                ast.USub: operator.neg, ast.UAdd: operator.pos}
 _functions = {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp, "min": min, "max": max, "hypot": math.hypot}
-# A path: names, numbers and quoted names, joined by dots; a name with blanks is quoted: bodies."inner pane".kinetic.
+# A path: names, numbers and quoted names, joined by dots; a name with blanks is quoted: bodies."a name".kinetic.
 _path = re.compile(r"""(?<![\w."])[A-Za-z_]\w*(?:\.(?:\w+|"[^"]*"))+""")
 
 
 def of_run(outcome):
     """summary.json, with what follows from the tables: bodies.NAME.velocity (m/s), .largest_fragment (kg), .elastic (J) and contacts.N.duration (s),
-    .impulse. None: the run left none."""
+    .impulse; of what can break bodies.NAME.second_fragment (kg: the largest piece beside the main one; 0: there is none), and, where `decohesion` is among the
+    fields of the last output, .separated_mass (kg). None: the run left none."""
     summary = outcome.summary
     if summary is None:
         return None
@@ -28,6 +29,16 @@ def of_run(outcome):
         of = np.flatnonzero(rows["body"] == name)
         for key in ("largest_fragment", "elastic"):
             body[key] = float(rows[key][of[-1]]) if of.size else None
+    for piece in sorted((summary["failure"] or {}).get("fragments", {}).get("list", []), key=lambda piece: -piece["mass"]):
+        body = summary["bodies"][piece["body"]]
+        body["pieces"] = [*body.get("pieces", []), piece["mass"]]
+    for body in summary["bodies"].values():
+        body["second_fragment"] = next(iter(body.get("pieces", [])[1:]), 0.0)
+    last = outcome.results.frames[-1] if outcome.results.frames else None
+    if last is not None and "decohesion" in last.names:
+        separated = last.separated() * outcome.results.mass
+        for number, name in enumerate(outcome.results.bodies):
+            summary["bodies"][name]["separated_mass"] = float(separated[outcome.results.body == number].sum())
     if summary["contacts"]:
         table = outcome.results.columns("contacts")
         for pair in summary["contacts"]:
@@ -59,7 +70,7 @@ def _walk(tree, path):
 def value(source, summary):
     """A number, or None where the run has none (null in the summary, or what a formula makes of one). Raises StudyError for what is no path or formula.
 
-    >>> value('2 * bodies."inner pane".kinetic / energy.initial', {"bodies": {"inner pane": {"kinetic": 3.0}}, "energy": {"initial": 4.0}})
+    >>> value('2 * bodies."a name".kinetic / energy.initial', {"bodies": {"a name": {"kinetic": 3.0}}, "energy": {"initial": 4.0}})
     1.5
     """
     found = {}
@@ -71,7 +82,7 @@ def value(source, summary):
     try:
         tree = ast.parse(_path.sub(name, source).strip().removeprefix("=").strip(), mode="eval").body
     except SyntaxError:
-        raise StudyError(f"{source!r} is no path in summary.json and no formula of such; names with blanks are quoted: bodies.\"inner pane\".kinetic") from None
+        raise StudyError(f"{source!r} is no path in summary.json and no formula of such; names with blanks are quoted: bodies.\"a name\".kinetic") from None
     if any(each is None for each in found.values()):
         return None
     try:
@@ -124,16 +135,9 @@ def speed_of(scene):
     return max(speeds, default=0.0) or None
 
 
-def scales(quantities, scene, summary):
-    """What errors are measured by: of velocities the scene's largest speed, of times its duration, of energies what it began with; of others their own size.
-    A quantity's own `scale` wins."""
-    time = scene["time"]
-    known = {"m/s": speed_of(scene), "s": time["end"] - time["start"], "J": summary["energy"]["initial"] or abs(summary["energy"]["external"]) or None}
-    found = {}
-    for quantity in quantities:
-        size = quantity.scale or known.get(quantity.unit)
-        if not size:
-            here = value(quantity.source, summary)
-            size = abs(here) if here else 1.0
-        found[quantity.name] = size
-    return found
+def scale(quantity, scene, summary):
+    """What a quantity's errors are measured by: its own `scale`; of velocities the scene's largest speed, of times its duration, of energies what the run began
+    with; of others their own size in the run of this `summary` (1 where that is nothing)."""
+    time, energy = scene["time"], summary["energy"]
+    known = {"m/s": speed_of(scene), "s": time["end"] - time["start"], "J": energy["initial"] or abs(energy["external"])}
+    return quantity.scale or known.get(quantity.unit) or abs(value(quantity.source, summary) or 0.0) or 1.0

@@ -6,17 +6,18 @@ import pathlib
 import re
 import subprocess
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from study.outcome import StudyError
 from vitrum.program import overrides, program
 
-kinds = ("trade", "error-bars", "sweep")
+kinds = ("trade", "error-bars", "sweep", "methods")
 bars = ("time", "local", "space", "chaos")
 _keys = {"": {"title": str, "scene": str, "set": dict, "vary": dict, "method": list, "reference": list, "ensemble": dict, "quantity": list, "report": dict, "quick": dict, "longest": float},
-         "method": {"name": str, "set": dict, "ladder": dict}, "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float},
-         "quantity": {"name": str, "from": str, "scale": float, "unit": str}, "report": {"kinds": list, "sweep_bars": list, "converged": float}, "quick": {"set": dict}}
-_named = {str: "a string", dict: "a table", list: "a list", int: "an integer", float: "a number"}
+         "method": {"name": str, "title": str, "each": dict, "set": dict, "ladder": dict, "rung": list, "tight": dict, "only": dict, "quick": list}, "rung": {"name": str, "set": dict, "members": int},
+         "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float}, "quantity": {"name": str, "from": str, "scale": float, "unit": str},
+         "report": {"kinds": list, "sweep_bars": list, "trade_points": bool, "repeats": int, "converged": float}, "quick": {"set": dict, "vary": dict, "members": int}}
+_named = {str: "a string", dict: "a table", list: "a list", int: "an integer", float: "a number", bool: "true or false"}
 
 
 class StudyFileError(StudyError):
@@ -24,10 +25,26 @@ class StudyFileError(StudyError):
 
 
 @dataclass(frozen=True)
+class Rung:
+    """`tightness`: the number that a ladder turns, a step or a tolerance. `members`: of an ensemble; 1: the run as it is."""
+    label: str
+    settings: dict = field(hash=False)
+    tightness: float | None = None
+    members: int = 1
+
+
+@dataclass(frozen=True)
 class Method:
-    """`rungs`: (label of the setting, settings), from loose to tight."""
+    """`rungs` from loose to tight; `tight`: settings of a run of the same kind that the others are measured against besides the references; `only`: points at which it
+    is asked for, as lists of varied values."""
     name: str
     rungs: tuple
+    title: str = ""
+    tight: dict | None = field(hash=False, default=None)
+    only: dict = field(hash=False, default_factory=dict)
+
+    def at(self, point):
+        return all(point.get(key) in values for key, values in self.only.items())
 
 
 @dataclass(frozen=True)
@@ -53,6 +70,8 @@ class StudyFile:
     quantities: list | None  # None: what every scene has
     kinds: list
     sweep_bars: list
+    trade_points: bool  # a trade at each point of `vary`, not of the scene as it is
+    repeats: int  # of each rung of a trade, whose median time counts
     converged: float  # relative: a bar that does not matter
     longest: float  # s
     resolved: dict = field(default_factory=dict)  # the scene with `settings`
@@ -82,7 +101,7 @@ class _Reader:
                 near = difflib.get_close_matches(key, known, 1)
                 raise self.fault(prefix + key, f"found an unknown key, expected one of {', '.join(known)}" + (f"; did you mean '{near[0]}'?" if near else ""))
             wanted = (int, float) if known[key] is float else known[key]
-            if not isinstance(value, wanted) or isinstance(value, bool):
+            if not isinstance(value, wanted) or (isinstance(value, bool) and wanted is not bool):
                 raise self.fault(prefix + key, f"found {json.dumps(value, default=str)}, expected {_named[known[key]]}")
         return table
 
@@ -98,28 +117,53 @@ class _Reader:
             yield item
 
 
-def _methods(reader):
+def _ladder(reader, item):
+    """The rungs of a method: those of its lists of values, those that are named one by one, or the method as it is."""
+    ladder, common = item.get("ladder", {}), item.get("set", {})
+    lengths = {len(values) for values in ladder.values() if isinstance(values, list)}
+    if any(not isinstance(values, list) or not values for values in ladder.values()) or len(lengths) > 1:
+        raise reader.fault("ladder", "expected lists of values, all of one length, from loose to tight")
+    if "rung" in item and ladder:
+        raise reader.fault("ladder", f"[[method]] {item['name']!r} has a ladder and [[method.rung]], expected one of both")
+    if "rung" in item:
+        rows = [reader.check(row, "rung", "rung|") for row in item["rung"]]
+        return tuple(Rung(row.get("name", str(n)), {**common, **row.get("set", {})}, members=row.get("members", 1)) for n, row in enumerate(rows))
+    if not ladder:
+        return (Rung("as it is", common),)
+    first = next(iter(ladder))
+    return tuple(Rung(", ".join(f"{key.split('.')[-1]} {_text(values[n])}" for key, values in ladder.items()), {**common, **{key: values[n] for key, values in ladder.items()}},
+                      ladder[first][n] if isinstance(ladder[first][n], (int, float)) else None) for n in range(len(ladder[first])))
+
+
+def _each(reader, item):
+    """A method for each value of the key in `each`, which stands for {} in its name."""
+    if "each" not in item:
+        return [item]
+    (key, values), *more = item["each"].items() or [(None, None)]
+    if more or not isinstance(values, list) or not values or "{}" not in item["name"]:
+        raise reader.fault("each", f"found {item['each']}, expected one key with a list of values, and {{}} in the method's name")
+    return [{**item, "name": item["name"].replace("{}", _text(value)), "set": {**item.get("set", {}), key: value}} for value in values]
+
+
+def _methods(reader, quick):
+    """A quick study takes the rungs that `quick` counts from 0, or the first two; of none the method is left out."""
     found = []
-    for item in reader.tables("method", ("name",)):
-        ladder = item.get("ladder", {})
-        lengths = {len(values) for values in ladder.values() if isinstance(values, list)}
-        if any(not isinstance(values, list) or not values for values in ladder.values()) or len(lengths) > 1:
-            raise reader.fault("ladder", "expected lists of values, all of one length, from loose to tight")
-        count = lengths.pop() if lengths else 1
-        rungs = tuple((", ".join(f"{key.split('.')[-1]} {_text(values[n])}" for key, values in ladder.items()) or "as it is",
-                       {**item.get("set", {}), **{key: values[n] for key, values in ladder.items()}}) for n in range(count))
-        found.append(Method(item["name"], rungs))
+    for item in [each for table in reader.tables("method", ("name",)) for each in _each(reader, table)]:
+        rungs, chosen = _ladder(reader, item), item.get("quick", [0, 1])
+        if any(not isinstance(n, int) or not 0 <= n < len(rungs) for n in item.get("quick", [])):
+            raise reader.fault("quick", f"found {chosen}, expected numbers of rungs from 0 to {len(rungs) - 1}")
+        found.append(Method(item["name"], tuple(rungs[n] for n in chosen if n < len(rungs)) if quick else rungs, item.get("title", item["name"]), item.get("tight"), item.get("only", {})))
     names = [method.name for method in found]
     if len(set(names)) < len(names):
         raise reader.fault("method", f"found two methods of one name among {', '.join(names)}")
-    return found
+    return [method for method in found if method.rungs]
 
 
 def _text(value):
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _report(reader, vary):
+def _report(reader, vary, methods):
     table = reader.table.get("report", {})
     reader.check(table, "report", "report|")
     chosen = table.get("kinds", ["trade", "error-bars", *(["sweep"] if vary else [])])
@@ -129,7 +173,19 @@ def _report(reader, vary):
                 raise reader.fault(f"report|{what}", f"found {word!r}, expected some of {', '.join(known)}")
     if "sweep" in chosen and not vary:
         raise reader.fault("report|kinds", "found 'sweep', but there is no table [vary] of what to vary")
+    if "methods" in chosen and not methods:
+        raise reader.fault("report|kinds", "found 'methods', but there is no [[method]]")
     return table, chosen
+
+
+def _vary(reader, quick, quick_table):
+    """What varies; a quick study takes the values that it names, or the first and the last."""
+    for table in (reader.table.get("vary", {}), quick_table.get("vary", {})):
+        for key, values in table.items():
+            if not isinstance(values, list) or not values:
+                raise reader.fault(key, f"found {values!r}, expected a list of values")
+    vary = reader.table.get("vary", {})
+    return {key: quick_table.get("vary", {}).get(key, values[:1] + values[1:][-1:]) for key, values in vary.items()} if quick else vary
 
 
 def read(path, quick=False):
@@ -142,28 +198,26 @@ def read(path, quick=False):
     scene = (path.parent / table["scene"]).resolve()
     if not scene.is_file():
         raise reader.fault("scene", f"found {table['scene']!r}, which is no file; expected one relative to {path.parent}")
-    vary = table.get("vary", {})
-    for key, values in vary.items():
-        if not isinstance(values, list) or not values:
-            raise reader.fault(key, f"found {values!r}, expected a list of values")
-    report, chosen = _report(reader, vary)
     quick_table = reader.check(table.get("quick", {}), "quick", "quick|")
+    vary, methods = _vary(reader, quick, quick_table), _methods(reader, quick)
+    report, chosen = _report(reader, vary, methods)
     ensemble = reader.check(table.get("ensemble", {}), "ensemble", "ensemble|")
     members = ensemble.get("members", 10)
     if members < 2:
         raise reader.fault("ensemble|members", f"found {members}, expected at least 2")
+    fewest = quick_table.get("members", 4)
+    if quick:
+        methods = [replace(method, rungs=tuple(replace(rung, members=min(rung.members, fewest)) for rung in method.rungs)) for method in methods]
     references = [(item.get("name", f"reference {n + 1}"), item["set"]) for n, item in enumerate(reader.tables("reference", ("set",)))]
     if len(references) not in (0, 2):
         raise reader.fault("reference", f"found {len(references)} of [[reference]], expected two, of different methods")
     quantities = [Quantity(item["name"], item["from"], item.get("scale"), item.get("unit", "")) for item in reader.tables("quantity", ("name", "from"))] or None
-    study = StudyFile(path, table.get("title", ""), scene, {**table.get("set", {}), **(quick_table.get("set", {}) if quick else {})},
-                      {key: ([values[0], values[-1]] if len(values) > 1 else values) for key, values in vary.items()} if quick else vary,
-                      _methods(reader), references, min(members, 4) if quick else members, ensemble.get("amplitude", 1e-12), quantities, chosen,
-                      report.get("sweep_bars", []), report.get("converged", 0.01), float(table.get("longest", 3600.0)))
+    study = StudyFile(path, table.get("title", ""), scene, {**table.get("set", {}), **(quick_table.get("set", {}) if quick else {})}, vary,
+                      methods, references, min(members, fewest) if quick else members, ensemble.get("amplitude", 1e-12), quantities, chosen,
+                      report.get("sweep_bars", []), report.get("trade_points", False), 1 if quick else report.get("repeats", 1), report.get("converged", 0.01),
+                      float(table.get("longest", 3600.0)))
     study.resolved = resolved(study.scene, study.settings)
     study.title = study.title or f"Study of {study.resolved.get('title') or scene.stem}"
-    if quick:
-        study.methods = [Method(method.name, method.rungs[:2]) for method in study.methods]
     return study
 
 
