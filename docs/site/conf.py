@@ -10,7 +10,7 @@ import shutil
 
 navigation = {
     "Start": ["start/install", "start/first-run", "start/reading-a-result"],
-    "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test"],
+    "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test", "tutorials/blast-on-a-window"],
     "How to": ["howto/contact", "howto/loads", "howto/tolerance", "howto/resume", "howto/studies", "howto/clusters", "howto/python", "howto/report", "howto/paraview",
                "howto/own-law", "howto/own-observer", "howto/development"],
     "Theory": ["theory/index", "theory/strain-and-stress", "theory/damage", "theory/bifurcation", "theory/decohesion", "theory/von-mises", "theory/drucker-prager",
