@@ -13,7 +13,7 @@ navigation = {
     "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test", "tutorials/blast-on-a-window"],
     "How to": ["howto/contact", "howto/loads", "howto/tolerance", "howto/resume", "howto/studies", "howto/clusters", "howto/python", "howto/report", "howto/paraview",
                "howto/own-law", "howto/own-observer", "howto/development"],
-    "Theory": ["theory/index", "theory/strain-and-stress", "theory/damage", "theory/bifurcation", "theory/decohesion", "theory/von-mises", "theory/drucker-prager",
+    "Theory": ["theory/index", "theory/paper", "theory/strain-and-stress", "theory/damage", "theory/bifurcation", "theory/decohesion", "theory/von-mises", "theory/drucker-prager",
                "theory/events", "theory/other-laws", "theory/local-equations", "theory/discrete-equations", "theory/grid", "theory/boundaries", "theory/loads", "theory/contact",
                "theory/turning-bodies", "theory/explicit", "theory/adaptive", "theory/integrators", "theory/energy", "theory/failure", "theory/resolution"],
     "Reference": ["reference/scene", "reference/materials", "reference/result"],
