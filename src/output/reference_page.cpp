@@ -49,16 +49,21 @@ A folder may be moved and copied as a whole: the links in it are relative.
 
 ## A folder belongs to one run
 
-- A run holds its folder while it is under way. Another one into it, with `--resume` or `--force` too, ends with status 2 and touches nothing.
-  The lock (`flock` on `.vitrum.lock`) goes with the process, however that ends. A file system without locks is warned of.
-- A folder that holds an earlier run is refused with status 2, unless `--resume` continues or `--force` replaces that run. It holds one when there
-  is a checkpoint, a result with at least one output, or a summary that does not tell of a failure; so not when the run was killed or
-  failed before its first output. Files of a run's names that no run wrote count as well; files of other names are neither looked at
-  nor touched. The reason: a run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
-- `--resume` without a checkpoint is refused with status 4. It wants the scene and the `--set` values of the run that it continues: a command line
-  says all that it computes. Otherwise it is refused with status 2; the message names the keys that differ, and the command that continues the
-  run. A run that is interrupted prints that command, too.
-- A folder that is moved, removed, or cleared and taken by another run ends the run with status 4, which leaves the other's files alone.
+| you start a run into | it |
+|---|---|
+| a folder where another run is under way | ends with status 2 and touches nothing, with `--resume` and `--force` too |
+| a folder that holds an earlier run | ends with status 2 and touches nothing |
+| the same with `--resume` | goes on from that run's checkpoint |
+| the same with `--force` | replaces that run |
+| a folder without a checkpoint, with `--resume` | ends with status 4 |
+
+- **A folder holds a run** when there is a checkpoint, a result with at least one output, or a summary that does not tell of a failure. A run that was killed or failed before its first output leaves none. Files of a run's names that no run wrote count as well. Files of
+  other names are neither looked at nor touched.
+- **Why refuse?** A run may have cost days, and the command that destroys it differs from the one that made it by nothing. A script that means to repeat says `--force`.
+- **`--resume` wants the scene and the `--set` values** of the run that it continues: a command line says all that it computes. Otherwise it ends with status 2. The message names the keys that differ, and the command that continues the run. A run that is interrupted
+  prints that command, too.
+- **The lock** (`flock` on `.vitrum.lock`) goes with the process, however that ends. A file system without locks is warned of.
+- **A folder that is moved, removed, or cleared and taken by another run** ends the run with status 4, which leaves the other's files alone.
 
 ## When something cannot be written
 
