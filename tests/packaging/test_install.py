@@ -62,7 +62,10 @@ class Install(PackagingTest):
         environment = {key: value for key, value in os.environ.items() if key != "VITRUM"} | {"PYTHONDONTWRITEBYTECODE": "1"}
         self.command(self.prefix / "bin/vitrum-study", study, env=environment)
         self.assertEqual(len((self.folder / "out/study-mine/tables/sweep.csv").read_text().splitlines()), 3)
-        self.assertIn(str(self.prefix / "bin/vitrum"), (self.folder / "out/study-mine/runs/base/outcome.json").read_text())
+        outcomes = list((self.folder / "out/study-mine/runs").rglob("outcome.json"))
+        self.assertEqual(len(outcomes), 2)
+        for outcome in outcomes:
+            self.assertIn(str(self.prefix / "bin/vitrum"), outcome.read_text())
 
     def test_pictures_of_a_run_are_drawn_by_what_is_installed(self):
         run = self.folder / "run"
