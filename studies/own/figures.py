@@ -2,7 +2,7 @@
 import textwrap
 
 import numpy as np
-from matplotlib.ticker import LogLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from study.figures import colours, legend_below, markers, plt
 from study.ladders import field_of_velocity
 
@@ -21,6 +21,20 @@ def _titled(axes, text):
     axes.set_title("\n".join(textwrap.wrap(text, 38)), fontsize=8.5)
 
 
+def _ticks_of_work(axis):
+    """A few numbers that can be read, over less than a decade as over many."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator() if high > 20.0 * low else MaxNLocator(4))
+    axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)) if 20.0 * low < high < 500.0 * low else NullLocator())
+    for which in ("major", "minor"):
+        getattr(axis, f"set_{which}_formatter")(lambda number, _: f"{number:g}")
+
+
+def _shown(quantity):
+    """(factor, unit) in which a quantity is drawn: microseconds for times."""
+    return (1e6, "µs") if quantity.unit == "s" else (1.0, quantity.unit or "–")
+
+
 def work_precision(rows, title):
     """Error of each quantity, and of the velocity field, over wall time; of the field over right-hand sides too. Grey: what the references differ by."""
     quantities = [(name, "seconds") for name in dict.fromkeys(row["quantity"] for row in rows)] + [(field_of_velocity, "rhs_evaluations")]
@@ -37,9 +51,7 @@ def work_precision(rows, title):
                 axes.plot(*zip(*points), color=colours[n % 6], marker=markers[n % len(markers)], linewidth=1.0, label=method)
         axes.set_xscale("log")
         axes.set_yscale("log")
-        for which in ("major", "minor"):
-            getattr(axes.xaxis, f"set_{which}_formatter")(lambda number, _: f"{number:g}")
-        axes.xaxis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+        _ticks_of_work(axes.xaxis)
         apart, (low, high) = of[0]["references_apart"], axes.get_ylim()
         if apart:
             low = min(low, 0.3 * apart)
@@ -82,12 +94,13 @@ def members(found):
         return None
     figure, panels = _panels(len(shown))
     for axes, bars in zip(panels, shown):
+        factor, unit = _shown(bars.quantity)
         for values, label, colour, dashes in ((bars.members, "as it is", colours[0], "-"), (bars.finer, "finer in time", colours[1], "--")):
             if values:
-                axes.step(np.sort(values), (1 + np.arange(len(values))) / len(values), where="post", color=colour, linestyle=dashes, label=label)
+                axes.step(factor * np.sort(values), (1 + np.arange(len(values))) / len(values), where="post", color=colour, linestyle=dashes, label=label)
         _titled(axes, bars.quantity.name)
         axes.set_ylabel("share of members below")
-        axes.set_xlabel(bars.quantity.unit or "–")
+        axes.set_xlabel(unit)
     legend_below(figure, panels[0].get_legend_handles_labels()[0])
     return figure
 
@@ -102,18 +115,19 @@ def sweep(rows, varied, quantities):
     numeric = all(isinstance(row[first], (int, float)) for row in rows)
     ticks = list(dict.fromkeys(row[first] for row in rows))
     for axes, quantity in zip(panels, shown):
+        factor, unit = _shown(quantity)
         for n, other in enumerate(dict.fromkeys(tuple(row[key] for key in others) for row in rows)):
-            points = [(row[first] if numeric else ticks.index(row[first]), row[quantity.name], row.get(f"± {quantity.name}")) for row in rows
+            points = [(row[first] if numeric else ticks.index(row[first]), factor * row[quantity.name], factor * (row.get(f"± {quantity.name}") or 0.0)) for row in rows
                       if tuple(row[key] for key in others) == other and row[quantity.name] is not None]
             if points:
                 x, y, bars = zip(*points)
-                axes.errorbar(x, y, yerr=[bar or 0.0 for bar in bars] if any(bars) else None, color=colours[n % 6], marker=markers[n % len(markers)], capsize=2,
+                axes.errorbar(x, y, yerr=bars if any(bars) else None, color=colours[n % 6], marker=markers[n % len(markers)], capsize=2,
                               label=", ".join(f"{key.split('.')[-1]} {value}" for key, value in zip(others, other)))
         if not numeric:
             axes.set_xticks(range(len(ticks)), [str(tick) for tick in ticks], fontsize=7)
         _titled(axes, quantity.name)
         axes.set_xlabel(first)
-        axes.set_ylabel(quantity.unit or "–")
+        axes.set_ylabel(unit)
     if others:
         legend_below(figure, panels[0].get_legend_handles_labels()[0])
     return figure

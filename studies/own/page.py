@@ -5,7 +5,7 @@ import pathlib
 
 import jinja2
 import matplotlib
-from study import bars, ladders, plan as plans, progress, sweep
+from study import bars, ladders, plan as plans, sweep
 from study.figures import plt, save, style
 from study.page import machine, run_times
 from study.provenance import commit, version
@@ -17,6 +17,7 @@ from own import figures
 
 here = pathlib.Path(__file__).resolve().parent
 css = here.parent / "vitrum/report/page.css"
+_screen: dict = {**charts.style, "font.size": 9, "axes.titlesize": 8.5}
 shown_of_failed = 50  # runs that did not come to their end, in the page
 
 
@@ -41,7 +42,7 @@ class Sheet:
         if self.write:
             save(figure, self.study.out / "figures", self._name(name))
         plt.close(figure)
-        with matplotlib.rc_context({**matplotlib.rcParamsDefault, **charts.style, "font.size": 9, "axes.titlesize": 8.5}):
+        with matplotlib.rc_context({**matplotlib.rcParamsDefault, **_screen}):
             figure = draw()
             text = charts.svg(figure, self._name(name))
             plt.close(figure)
@@ -63,13 +64,15 @@ def _with_unit(value, unit):
 
 def _trade(study, sheet):
     rows = list(ladders.trade_rows(study))
-    advice = list(ladders.recommendations(rows))
+    # While a reference is to come, nothing can be said of errors.
+    awaited = any(study.outcome(name) is None for name in study.named_any("reference"))
+    advice = [] if awaited else list(ladders.recommendations(rows))
     sheet.table("trade", rows)
     sheet.table("recommendations", advice)
     points = list(dict.fromkeys(row["point"] for row in rows))
     labels = {point: sweep.label(study, point) for point in points}
     idle = {(labels[row["point"]], row["method"], row["setting"]): row["tolerance_idle"] for row in rows if row.get("tolerance_idle")}
-    return {"figures": [text for point in points for text in [sheet.figure("-".join(["trade", *([str(point)] if point is not None else [])]), functools.partial(
+    return {"awaited": awaited, "figures": [text for point in points for text in [sheet.figure("-".join(["trade", *([str(point)] if point is not None else [])]), functools.partial(
                 figures.work_precision, [row for row in rows if row["point"] == point], labels[point]))] if text],
             "references": list(dict.fromkeys(study.cases[name]["method"] for name in study.named_any("reference"))), "points": len(points) > 1,
             "advice": [(*([labels[row["point"]]] if len(points) > 1 else []), row["quantity"], _percent(row["level"]), row["advice"], number(row.get("seconds")), _percent(row.get("error")),
@@ -79,6 +82,8 @@ def _trade(study, sheet):
 
 
 def _error_bars(study, sheet):
+    if study.outcome(study.named("base")[0]) is None:
+        return {"awaited": True}
     found = list(bars.bar_rows(study))
     rows, every, converged = [row for _, row in found], [each for each, _ in found], study.plan["converged"]
     sheet.table("error_bars", rows)
@@ -86,7 +91,7 @@ def _error_bars(study, sheet):
     def bar(row, kind):
         return "" if row[kind] is None else f"±{_with_unit(row[kind], row['unit'])}"
 
-    return {"figure": sheet.figure("error-bars", lambda: figures.error_bars(every, converged)), "members": sheet.figure("members", lambda: figures.members(every)),
+    return {"awaited": False, "figure": sheet.figure("error-bars", lambda: figures.error_bars(every, converged)), "members": sheet.figure("members", lambda: figures.members(every)),
             "rows": [(row["quantity"], _with_unit(row["value"], row["unit"]), *[bar(row, kind) for kind in bars.kinds], row["verdict"], row["effort"]) for row in rows],
             "distributions": [_compared(each, row) for each, row in found if row["verdict"] == "chaotic" and row["same_distribution"] is not None],
             "best": bars.best_of_all(every, converged), "count": study.plan["members"], "converged": _percent(converged)}
@@ -117,7 +122,7 @@ def _sweep(study, sheet):
 def _methods(study, sheet):
     rows = list(sweep.method_rows(study))
     sheet.table("methods", rows)
-    groups = {}  # a line of the page: a point, a method, a rung
+    groups: dict[tuple, dict] = {}  # a line of the page: a point, a method, a rung
     for row in rows:
         line = groups.setdefault((*(row[key] for key in study.plan["varied"]), study.plan["titles"][row["method"]], row["setting"], row["status"], row["members"]), {})
         line[row["quantity"]] = "–" if not row["n"] else _cell(row["median"]) + (f" ({_cell(row['p05'])} … {_cell(row['p95'])})" if row["n"] > 1 else "")
@@ -140,16 +145,16 @@ def _section(study, write):
             **{kind.replace("-", "_"): make(study, sheet) if kind in plan["kinds"] else None for kind, make in _parts.items()}}
 
 
-def write(out, quick, refresh=None):
-    """report.html; with tables/*.csv, figures/*.png and *.pdf where the study is done. `refresh`: of one that is under way, seconds after which a browser reads the page again."""
+def write(out, quick, name="report.html", files=True, state=None, refresh=None):
+    """The page NAME. `files`: also tables/*.csv, figures/*.png and *.pdf; without, of the runs that are there. `state`: how far a study is that is not done (heading, and what
+    progress.json says). `refresh`: seconds after which a browser reads the page again."""
     plt.rcParams.update(style)
-    under_way = refresh is not None
-    studies = [Study(pathlib.Path(out), key, partial=under_way) for key in plans.load_all(out)]
+    studies = [Study(pathlib.Path(out), key, partial=not files) for key in plans.load_all(out)]
     count, seconds = run_times(out)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(here), autoescape=True, undefined=jinja2.StrictUndefined)
     text = environment.get_template("page.html").render(
-        studies=[_section(study, not under_way) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, progress=progress.read(out) if under_way else None,
+        studies=[_section(study, files) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, state=state,
         made=f"{version()}; commit {commit()}; {datetime.date.today().isoformat()}; {machine()}; {count:,} runs, {seconds:,.0f} s together")
-    following = pathlib.Path(out) / ".report.html.next"
+    following = pathlib.Path(out) / f".{name}.next"
     following.write_text(text, encoding="utf-8")
-    following.replace(pathlib.Path(out) / "report.html")
+    following.replace(pathlib.Path(out) / name)

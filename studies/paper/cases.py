@@ -16,5 +16,9 @@ def read(out):
     """The study, and the names of its cases by (radius in mm, speed in m/s, treatment)."""
     study = Study(out)
     treatments = {key: Treatment(key, title, not key.startswith("a-")) for key, title in study.plan["titles"].items()}
-    points = [(round(1e3 * point["parameters.R"]), round(point["parameters.v"])) for point in study.plan["points"]]
-    return study, {(*points[study.cases[name]["point"]], treatments[study.cases[name]["method"]]): name for name in study.named_any("rung")}
+    points: list[tuple[int, int]] = [(round(1e3 * point["parameters.R"]), round(point["parameters.v"])) for point in study.plan["points"]]
+    found: dict[tuple[int, int, Treatment], str] = {}
+    for name in study.named_any("rung"):
+        radius, speed = points[study.cases[name]["point"]]
+        found[radius, speed, treatments[study.cases[name]["method"]]] = name
+    return study, found

@@ -75,7 +75,7 @@ def report(quick, out):
     study, every = read(out)
     treatments = list(dict.fromkeys(treatment for _, _, treatment in every))
     histories = {key: History(study.outcome(case)) for key, case in every.items()}
-    case_rows = [_case_row(*key, history) for key, history in histories.items()]
+    case_rows = [_case_row(radius, speed, treatment, history) for (radius, speed, treatment), history in histories.items()]
     write_csv(out / "tables" / "cases.csv", list(case_rows[0]), case_rows)
     rows = list(_sentence_rows(histories, treatments))
     write_csv(out / "tables" / "sentences.csv", list(rows[0]), rows)

@@ -20,7 +20,8 @@ fragmenting = {"MUSL 0.197 µs": "step 0.2 µs", "base": base, "MUSL 0.0123 µs"
 
 def questions(plan):
     """Question -> (title, its ensembles from coarse to fine, or from the paper's reading to others)."""
-    cases, found = plan["cases"], {}
+    cases = plan["cases"]
+    found: dict[str, dict[str, tuple[str, list[str]]]] = {}
     for name, case in cases.items():
         owner = cases[case["run"]]
         found.setdefault(case["method"], {}).setdefault(case["setting"], (f"{owner['method']} {owner['setting']}", []))[1].append(name)

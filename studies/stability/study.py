@@ -24,7 +24,7 @@ def _travel_keys(quick):
 
 def _groups(quick):
     """Jobs: a name and what makes its table's rows."""
-    groups = {}
+    groups: dict[str, list] = {}
     for point in limits.points(quick):
         groups.setdefault(f"limits-{point.scheme}-{point.shape}", []).append(point)
     for key in _travel_keys(quick):

@@ -22,7 +22,7 @@ class Bars:
     @property
     def largest(self):
         known = {kind: bar for kind, bar in self.relative.items() if bar is not None}
-        return max(known, key=known.get) if known else None
+        return max(known, key=known.__getitem__) if known else None
 
     @cached_property
     def probability(self):
@@ -80,14 +80,14 @@ def best_effort(bars):
     if kind == "chaos":
         return f"more members: of {len(bars.members)} the mean is known to ±{100.0 * bars.relative[kind] / len(bars.members) ** 0.5:.2g} %"
     rates = {effort: moved / seconds for effort, (of, moved, seconds) in bars.efforts.items() if of == kind}
-    effort = max(rates, key=rates.get)
+    effort = max(rates, key=rates.__getitem__)
     _, moved, seconds = bars.efforts[effort]
     return f"{effort}: moves it by {100.0 * moved:.2g} % for {seconds:.2g} s more" if moved > 0.0 else ""
 
 
 def best_of_all(every, converged):
     """Which effort takes most off the largest bars of all quantities together, per second, in words; None: no refinement would."""
-    efforts = {}  # effort -> what it moves, of all scales together, and its seconds
+    efforts: dict[str, tuple[float, float]] = {}  # effort -> what it moves, of all scales together, and its seconds
     for bars in every:
         if bars.largest in (None, "chaos") or bars.relative[bars.largest] <= converged:
             continue

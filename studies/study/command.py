@@ -23,7 +23,7 @@ def _report(study, quick, out):
     values = study.report(quick, out)
     if values is None:  # it has written its page itself
         return 0
-    folder = pathlib.Path(sys.modules[study.__name__].__file__).parent
+    folder = pathlib.Path(str(sys.modules[study.__name__].__file__)).parent
     page = fill((folder / "page.md").read_text(), values) + "\n" + provenance(study.name, quick, out)
     check_pictures(page, out / "figures")
     blocks = {target: fill((folder / template).read_text(), study.block_values(quick, out)) for target, template in getattr(study, "blocks", {}).items()}

@@ -13,7 +13,7 @@ from vitrum.program import overrides, program
 
 kinds = ("trade", "error-bars", "sweep", "methods")
 bars = ("time", "local", "space", "chaos")
-_keys = {"": {"title": str, "scene": str, "set": dict, "vary": dict, "method": list, "reference": list, "ensemble": dict, "quantity": list, "report": dict, "quick": dict, "longest": float},
+_keys: dict[str, dict[str, type]] = {"": {"title": str, "scene": str, "set": dict, "vary": dict, "method": list, "reference": list, "ensemble": dict, "quantity": list, "report": dict, "quick": dict, "longest": float},
          "method": {"name": str, "title": str, "each": dict, "set": dict, "ladder": dict, "rung": list, "tight": dict, "only": dict, "quick": list}, "rung": {"name": str, "set": dict, "members": int},
          "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float}, "quantity": {"name": str, "from": str, "scale": float, "unit": str},
          "report": {"kinds": list, "sweep_bars": list, "trade_points": bool, "repeats": int, "converged": float}, "quick": {"set": dict, "vary": dict, "members": int}}
@@ -89,10 +89,15 @@ class _Reader:
             raise StudyFileError(f"{path}: {error}") from error
 
     def fault(self, key, what):
-        """At the first line that names the last part of the key."""
-        last = re.escape(key.split("|")[-1])
-        lines = [n for n, line in enumerate(self.text.splitlines(), 1) if re.search(rf"""(^|[\s{{,\["']){last}["']?\s*(=|\])""", line)]
-        return StudyFileError(f"{self.path}{f':{lines[0]}' if lines else ''}: key '{key.replace('|', '.')}': {what}")
+        """At the line of the key `table|key`, or `tables.N|key` of the Nth of a list: the first that names it after the head of its table."""
+        table, _, last = key.rpartition("|")
+        name, _, number = table.partition(".")
+        lines = self.text.splitlines()
+        heads = [n for n, line in enumerate(lines) if table and re.match(rf"\s*\[+{re.escape(name)}\]", line)]
+        first = heads[min(int(number or 0), len(heads) - 1)] if heads else 0
+        named = [n for n, line in enumerate(lines[first:], first + 1) if re.search(rf"""(^|[\s{{,\["']){re.escape(last)}["']?\s*(=|\])""", line)]
+        place = named[0] if named else first + 1 if heads else None
+        return StudyFileError(f"{self.path}{f':{place}' if place else ''}: key '{key.replace('|', '.')}': {what}")
 
     def check(self, table, section, prefix=""):
         for key, value in table.items():
@@ -100,33 +105,33 @@ class _Reader:
             if key not in known:
                 near = difflib.get_close_matches(key, known, 1)
                 raise self.fault(prefix + key, f"found an unknown key, expected one of {', '.join(known)}" + (f"; did you mean '{near[0]}'?" if near else ""))
-            wanted = (int, float) if known[key] is float else known[key]
-            if not isinstance(value, wanted) or (isinstance(value, bool) and wanted is not bool):
+            wanted: tuple[type, ...] = (int, float) if known[key] is float else (known[key],)
+            if not isinstance(value, wanted) or (isinstance(value, bool) and known[key] is not bool):
                 raise self.fault(prefix + key, f"found {json.dumps(value, default=str)}, expected {_named[known[key]]}")
         return table
 
     def tables(self, name, required):
-        """The items of a list of tables."""
+        """(how `fault` calls its keys, table) of each of a list of tables."""
         for n, item in enumerate(self.table.get(name, [])):
             if not isinstance(item, dict):
                 raise self.fault(name, f"found {item!r}, expected tables [[{name}]]")
             self.check(item, name, f"{name}.{n}|")
             for key in required:
                 if key not in item:
-                    raise self.fault(name, f"[[{name}]] {n} has no key '{key}'")
-            yield item
+                    raise self.fault(f"{name}.{n}|{name}", f"[[{name}]] {n} has no key '{key}'")
+            yield f"{name}.{n}|", item
 
 
-def _ladder(reader, item):
+def _ladder(reader, prefix, item):
     """The rungs of a method: those of its lists of values, those that are named one by one, or the method as it is."""
     ladder, common = item.get("ladder", {}), item.get("set", {})
     lengths = {len(values) for values in ladder.values() if isinstance(values, list)}
     if any(not isinstance(values, list) or not values for values in ladder.values()) or len(lengths) > 1:
-        raise reader.fault("ladder", "expected lists of values, all of one length, from loose to tight")
+        raise reader.fault(prefix + "ladder", "expected lists of values, all of one length, from loose to tight")
     if "rung" in item and ladder:
-        raise reader.fault("ladder", f"[[method]] {item['name']!r} has a ladder and [[method.rung]], expected one of both")
+        raise reader.fault(prefix + "ladder", f"[[method]] {item['name']!r} has a ladder and [[method.rung]], expected one of both")
     if "rung" in item:
-        rows = [reader.check(row, "rung", "rung|") for row in item["rung"]]
+        rows = [reader.check(row, "rung", prefix) for row in item["rung"]]
         return tuple(Rung(row.get("name", str(n)), {**common, **row.get("set", {})}, members=row.get("members", 1)) for n, row in enumerate(rows))
     if not ladder:
         return (Rung("as it is", common),)
@@ -135,23 +140,23 @@ def _ladder(reader, item):
                       ladder[first][n] if isinstance(ladder[first][n], (int, float)) else None) for n in range(len(ladder[first])))
 
 
-def _each(reader, item):
+def _each(reader, prefix, item):
     """A method for each value of the key in `each`, which stands for {} in its name."""
     if "each" not in item:
         return [item]
     (key, values), *more = item["each"].items() or [(None, None)]
     if more or not isinstance(values, list) or not values or "{}" not in item["name"]:
-        raise reader.fault("each", f"found {item['each']}, expected one key with a list of values, and {{}} in the method's name")
+        raise reader.fault(prefix + "each", f"found {item['each']}, expected one key with a list of values, and {{}} in the method's name")
     return [{**item, "name": item["name"].replace("{}", _text(value)), "set": {**item.get("set", {}), key: value}} for value in values]
 
 
 def _methods(reader, quick):
     """A quick study takes the rungs that `quick` counts from 0, or the first two; of none the method is left out."""
     found = []
-    for item in [each for table in reader.tables("method", ("name",)) for each in _each(reader, table)]:
-        rungs, chosen = _ladder(reader, item), item.get("quick", [0, 1])
+    for prefix, item in [(prefix, each) for prefix, table in reader.tables("method", ("name",)) for each in _each(reader, prefix, table)]:
+        rungs, chosen = _ladder(reader, prefix, item), item.get("quick", [0, 1])
         if any(not isinstance(n, int) or not 0 <= n < len(rungs) for n in item.get("quick", [])):
-            raise reader.fault("quick", f"found {chosen}, expected numbers of rungs from 0 to {len(rungs) - 1}")
+            raise reader.fault(prefix + "quick", f"found {chosen}, expected numbers of rungs from 0 to {len(rungs) - 1}")
         found.append(Method(item["name"], tuple(rungs[n] for n in chosen if n < len(rungs)) if quick else rungs, item.get("title", item["name"]), item.get("tight"), item.get("only", {})))
     names = [method.name for method in found]
     if len(set(names)) < len(names):
@@ -180,10 +185,10 @@ def _report(reader, vary, methods):
 
 def _vary(reader, quick, quick_table):
     """What varies; a quick study takes the values that it names, or the first and the last."""
-    for table in (reader.table.get("vary", {}), quick_table.get("vary", {})):
+    for name, table in (("vary", reader.table.get("vary", {})), ("quick", quick_table.get("vary", {}))):
         for key, values in table.items():
             if not isinstance(values, list) or not values:
-                raise reader.fault(key, f"found {values!r}, expected a list of values")
+                raise reader.fault(f"{name}|{key}", f"found {values!r}, expected a list of values")
     vary = reader.table.get("vary", {})
     return {key: quick_table.get("vary", {}).get(key, values[:1] + values[1:][-1:]) for key, values in vary.items()} if quick else vary
 
@@ -208,10 +213,10 @@ def read(path, quick=False):
     fewest = quick_table.get("members", 4)
     if quick:
         methods = [replace(method, rungs=tuple(replace(rung, members=min(rung.members, fewest)) for rung in method.rungs)) for method in methods]
-    references = [(item.get("name", f"reference {n + 1}"), item["set"]) for n, item in enumerate(reader.tables("reference", ("set",)))]
+    references = [(item.get("name", f"reference {n + 1}"), item["set"]) for n, (_, item) in enumerate(reader.tables("reference", ("set",)))]
     if len(references) not in (0, 2):
         raise reader.fault("reference", f"found {len(references)} of [[reference]], expected two, of different methods")
-    quantities = [Quantity(item["name"], item["from"], item.get("scale"), item.get("unit", "")) for item in reader.tables("quantity", ("name", "from"))] or None
+    quantities = [Quantity(item["name"], item["from"], item.get("scale"), item.get("unit", "")) for _, item in reader.tables("quantity", ("name", "from"))] or None
     study = StudyFile(path, table.get("title", ""), scene, {**table.get("set", {}), **(quick_table.get("set", {}) if quick else {})}, vary,
                       methods, references, min(members, fewest) if quick else members, ensemble.get("amplitude", 1e-12), quantities, chosen,
                       report.get("sweep_bars", []), report.get("trade_points", False), 1 if quick else report.get("repeats", 1), report.get("converged", 0.01),

@@ -1,4 +1,6 @@
 """What an accuracy costs: errors of each rung of each ladder, and the cheapest setting that meets one."""
+import functools
+
 from study.results import work
 
 levels = (0.1, 0.01, 0.001)
@@ -23,8 +25,7 @@ def cheapest(ladders, error, level):
 def trade_rows(study):
     """A row for each rung of each ladder and each quantity: its error against the first reference of its point, how far both references are apart, and the error
     against the tight run of its own method where there is one."""
-    measured = [(quantity.name, lambda name, other, quantity=quantity: study.difference(name, other, quantity),
-                 lambda name, quantity=quantity: study.value(name, quantity)) for quantity in study.quantities]
+    measured: list[tuple] = [(quantity.name, functools.partial(study.difference, quantity=quantity), functools.partial(study.value, quantity=quantity)) for quantity in study.quantities]
     measured.append((field_of_velocity, study.field_difference, lambda name: None))
     for name in study.named_any("ladder"):
         case, cost = study.cases[name], work(study, name)
@@ -46,7 +47,7 @@ def recommendations(rows):
             if apart is None or apart > level:
                 yield base | {"advice": "undecidable: the references differ by more" if apart is not None else "undecidable: a reference has no value"}
                 continue
-            ladders = {}
+            ladders: dict[str, list] = {}
             for row in sorted(of, key=lambda row: row["rung"]):
                 ladders.setdefault(row["method"], []).append(row)
             best = cheapest(ladders.values(), "error", level)

@@ -72,39 +72,38 @@ def _write_whole(path, record):
     temporary.rename(path)
 
 
-def _place(case, runs):
-    """The folder of a run, and what must be the same for it to be kept."""
-    folder = pathlib.Path(runs) / case.name
-    return folder, {"command": run_command(case, folder), "program": digest(program()), "scene": digest(studies / case.scene)}
+def _stamp(case):
+    """What must be the same for a run to be kept; wherever the study's folder stands."""
+    return {"command": run_command(case, case.name), "program": digest(program()), "scene": digest(studies / case.scene)}
 
 
 def kept(case, runs):
     """The outcome of `case` in the folder `runs`/NAME where it is there, by the same program; else None."""
-    folder, stamp = _place(case, runs)
+    folder = pathlib.Path(runs) / case.name
     path = folder / "outcome.json"
     if not path.exists():
         return None
     record = json.loads(path.read_text())
-    return Outcome(folder) if all(record.get(key) == value for key, value in stamp.items()) else None
+    return Outcome(folder) if all(record.get(key) == value for key, value in _stamp(case).items()) else None
 
 
 def run(case, runs):
     """The outcome of `case`, which is computed where it is not kept."""
     outcome = kept(case, runs)
     if outcome is None:
-        folder, stamp = _place(case, runs)
-        _compute(case, folder, stamp)
+        folder = pathlib.Path(runs) / case.name
+        _compute(case, folder)
         outcome = Outcome(folder)
     return outcome
 
 
-def _compute(case, folder, stamp):
+def _compute(case, folder):
     folder.mkdir(parents=True, exist_ok=True)
     for old in (folder / "outcome.json", *folder.glob("repeat-*.json")):
         old.unlink(missing_ok=True)
     start = time.perf_counter()
     try:
-        done = subprocess.run(stamp["command"], capture_output=True, text=True, timeout=case.longest)
+        done = subprocess.run(run_command(case, folder), capture_output=True, text=True, timeout=case.longest)
     except subprocess.TimeoutExpired:
         status, message = "too-long", f"stopped after {case.longest:g} s"
     else:
@@ -113,4 +112,4 @@ def _compute(case, folder, stamp):
             raise StudyError(f"case {case.name}: exit status {done.returncode}: {message}")
         status = "complete" if done.returncode == 0 else "failed"
     # Last: a folder with an outcome is a finished run.
-    _write_whole(folder / "outcome.json", {**stamp, "status": status, "message": message, "seconds": time.perf_counter() - start})
+    _write_whole(folder / "outcome.json", {**_stamp(case), "status": status, "message": message, "seconds": time.perf_counter() - start})

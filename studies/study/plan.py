@@ -9,7 +9,7 @@ from vitrum.errors import Error
 from vitrum.program import overrides, studies
 
 from study.case import Case
-from study.file import Method, Rung, answer, bars, grid, read
+from study.file import Method, Rung, answer, bars, grid, read, resolved
 from study.outcome import StudyError
 
 tight_rtol, tight_courant = 1e-7, 0.0125
@@ -74,9 +74,9 @@ def _with_step(scene, factor):
     return {"integrator.step": integrator["step"] * factor} if integrator["method"] == "explicit" and "step" in integrator else {}
 
 
-def refinements(study):
-    """Effort -> (kind of error that it shows, settings): what the error bars are made of."""
-    scene = study.resolved
+def refinements(study, kinds, point):
+    """Effort -> (kind of error that it shows, settings): what the error bars of these kinds are made of, at a point."""
+    scene = resolved(study.scene, {**study.settings, **point}) if point else study.resolved
     found = {"half the step" if scene["integrator"]["method"] == "explicit" else "a tenth of the tolerance": ("time", finer_in_time(scene, 1)),
              "a quarter of the step" if scene["integrator"]["method"] == "explicit" else "a hundredth of the tolerance": ("time", finer_in_time(scene, 2))}
     method = scene["constitutive"]["method"]
@@ -90,7 +90,7 @@ def refinements(study):
         found["four times the particles"] = ("space", {f"body.{n}.particles_per_cell": finer[body["particles_per_cell"]] for n, body in enumerate(scene["body"])})
     smoother = "gimp" if scene["space"]["shape_functions"] != "gimp" else "bspline2"
     found[f"shape functions {smoother}"] = ("space", {"space.shape_functions": smoother})
-    return {effort: (kind, settings) for effort, (kind, settings) in found.items() if admitted(study, settings)}
+    return {effort: (kind, settings) for effort, (kind, settings) in found.items() if kind in kinds and admitted(study, {**point, **settings})}
 
 
 def perturbed(study, member):
@@ -126,12 +126,10 @@ def _methods(study, add):
                         tightness=rung.tightness, point=point, **({"member": member, "job": ("rung", point, method.name, rung.label)} if rung.members > 1 else {}))
 
 
-def _bars(study, efforts, kinds, add, point=None, settings=None):
+def _bars(study, kinds, add, point=None, settings={}):
     """The cases of a point's error bars: of the scene itself, or of a point of a sweep."""
-    settings = settings or {}
-    for effort, (kind, more) in efforts.items():
-        if kind in kinds:
-            add("refined", {**settings, **more}, effort=effort, kind=kind, point=point)
+    for effort, (kind, more) in (refinements(study, kinds, settings) if set(kinds) - {"chaos"} else {}).items():
+        add("refined", {**settings, **more}, effort=effort, kind=kind, point=point)
     if "chaos" in kinds:
         for member in range(1, study.members + 1):
             add("member", {**settings, **perturbed(study, member)}, member=member, point=point)
@@ -140,7 +138,8 @@ def _bars(study, efforts, kinds, add, point=None, settings=None):
 def make(path, quick):
     """The plan, as JSON takes it: the study's own data, and its cases by name. Cases of the same settings share a run."""
     study = read(path, quick)
-    cases, runs = {}, {}
+    cases: dict[str, dict] = {}
+    runs: dict[str, str] = {}
 
     def add(role, settings, job=None, **facts):
         facts = {key: value for key, value in facts.items() if value is not None}
@@ -157,16 +156,15 @@ def make(path, quick):
         _trade(study, quick, add)
     if "methods" in study.kinds:
         _methods(study, add)
-    efforts = refinements(study) if "error-bars" in study.kinds or study.sweep_bars else {}
     if "error-bars" in study.kinds:
-        _bars(study, efforts, bars, add)
+        _bars(study, bars, add)
         # The same members under a finer step or tolerance: do two settings differ by more than chance?
         for member in range(1, study.members + 1):
             add("member", {**finer_in_time(study.resolved, 1), **perturbed(study, member)}, member=member, finer="finer")
     if "sweep" in study.kinds:
         for n, point in _points(study):
             add("point", point, point=n)
-            _bars(study, efforts, study.sweep_bars, add, n, point)
+            _bars(study, study.sweep_bars, add, n, point)
     return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if study.vary else [],
             "varied": list(study.vary), "sweep_bars": study.sweep_bars, "repeats": study.repeats, "converged": study.converged, "members": study.members, "longest": study.longest,
             "titles": {method.name: method.title for method in study.methods}, "quantities": [vars(each) for each in study.quantities] if study.quantities else None,
@@ -240,7 +238,7 @@ def case(plan, name):
 
 def jobs(plan):
     """Job -> names of its runs, each once."""
-    found = {}
+    found: dict[str, list[str]] = {}
     for name, entry in plan["cases"].items():
         if entry["run"] == name:
             found.setdefault("-".join(filter(None, (plan["key"], entry["job"]))), []).append(name)

@@ -5,8 +5,8 @@ import sys
 import time
 
 _start = time.monotonic()
-_running = set()
-_before = None  # cases that were done when the study began
+_running: set[int] = set()
+_before: int | None = None  # cases that were done when the study began
 _said = ""
 
 

@@ -3,15 +3,16 @@ import ast
 import math
 import operator
 import re
+from collections.abc import Callable
 
 import numpy as np
 from study.file import Quantity
 from study.outcome import StudyError
 
 
-_operations = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow,
+_operations: dict[type, Callable] = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow,
                ast.USub: operator.neg, ast.UAdd: operator.pos}
-_functions = {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp, "min": min, "max": max, "hypot": math.hypot}
+_functions: dict[str, Callable] = {"abs": abs, "sqrt": math.sqrt, "log": math.log, "exp": math.exp, "min": min, "max": max, "hypot": math.hypot}
 # A path: names, numbers and quoted names, joined by dots; a name with blanks is quoted: bodies."a name".kinetic.
 _path = re.compile(r"""(?<![\w."])[A-Za-z_]\w*(?:\.(?:\w+|"[^"]*"))+""")
 
@@ -73,7 +74,7 @@ def value(source, summary):
     >>> value('2 * bodies."a name".kinetic / energy.initial', {"bodies": {"a name": {"kinetic": 3.0}}, "energy": {"initial": 4.0}})
     1.5
     """
-    found = {}
+    found: dict[str, float | None] = {}
 
     def name(match):
         found[f"path_{len(found)}"] = _walk(summary, match[0])

@@ -47,7 +47,7 @@ def distribution(values):
 
 def method_rows(study):
     """A row for each point, method, rung and quantity: what its members say."""
-    groups = {}
+    groups: dict[tuple, list[str]] = {}
     for name in study.named_any("rung"):
         case = study.cases[name]
         groups.setdefault((case.get("point"), case["method"], case["rung"]), []).append(name)

@@ -6,7 +6,7 @@ from trade.problems import fixed_steps
 
 
 def _cheapest(rows, quantity, level, families=None):
-    ladders = {}
+    ladders: dict[tuple, list] = {}
     for row in sorted(rows, key=lambda row: -row["tightness"]):
         if row.get("seconds") and (not families or row["family"] in families) and row["local"] in ("closed-form", "substep 1e-06", "substep 0.0001"):
             ladders.setdefault((row["family"], row["local"], row["shape"]), []).append(row)

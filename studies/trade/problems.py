@@ -15,15 +15,16 @@ class Problem:
         self.title = self.study.plan["title"].replace("its end", f"{1e6 * end:g} µs")
         self.names = ["velocity", *[quantity.name for quantity in self.study.quantities]]
         self.shapes = [point["space.shape_functions"] for point in self.study.plan["points"]]
-        self.rows, self.floors = {}, {}
+        self.floors: dict[tuple[str, str], float | None] = {}
+        found: dict[tuple, dict] = {}
         for row in trade_rows(self.study):
             shape, name = self.shapes[row["point"]], "velocity" if row["quantity"] == field_of_velocity else row["quantity"]
             self.floors[shape, name] = row["references_apart"]
-            into = self.rows.setdefault((shape, row["method"], row["rung"]), self._work(shape, row))
+            into = found.setdefault((shape, row["method"], row["rung"]), self._work(shape, row))
             into[name] = row["error"]
             if name == "velocity":
                 into["own velocity"] = row["own_error"]
-        self.rows = list(self.rows.values())
+        self.rows = list(found.values())
 
     def _work(self, shape, row):
         family, _, local = row["method"].partition("-")

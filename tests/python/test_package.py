@@ -34,7 +34,8 @@ class Examples(unittest.TestCase):
 class Types(PackageTest):
     @unittest.skipUnless(importlib.util.find_spec("mypy"), "no mypy")
     def test_annotations_hold(self):
-        done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--check-untyped-defs", f"--cache-dir={self.folder}", "-p", "vitrum"],
+        done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--check-untyped-defs", f"--cache-dir={self.folder}",
+                               *[word for package in ("vitrum", "study", "own", "paper", "trade", "sensitivity", "stability") for word in ("-p", package)]],
                               capture_output=True, text=True, cwd=source / "studies")
         self.assertEqual(done.returncode, 0, done.stdout)
 

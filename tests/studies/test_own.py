@@ -56,9 +56,14 @@ class StudyFile(Folder):
                 ("", "key 'scene' is missing"), ('scene = "no.toml"', "study.toml:1: key 'scene': found 'no.toml'"), ("scene = = 1", "line 1, column 9"),
                 (scene + "[ensembles]\nmembers = 3", "study.toml:2: key 'ensembles': found an unknown key.*did you mean 'ensemble'"),
                 (scene + "[ensemble]\nmembers = 1", "study.toml:3: key 'ensemble.members': found 1"), (scene + "[ensemble]\nmembers = true", "expected an integer"),
-                (scene + '[vary]\n"space.cell" = 1e-3', "study.toml:3: key 'space.cell': found 0.001, expected a list"),
+                (scene + '[vary]\n"space.cell" = 1e-3', "study.toml:3: key 'vary.space.cell': found 0.001, expected a list"),
                 (scene + '[report]\nkinds = ["sweep"]', "found 'sweep', but there is no table"), (scene + '[report]\nkinds = ["bars"]', "found 'bars', expected some of trade"),
-                (scene + '[[method]]\nname = "a"\nladder = {"integrator.courant" = 0.1}', "study.toml:4: key 'ladder': expected lists"),
+                (scene + '[[method]]\nname = "a"\nladder = {"integrator.courant" = 0.1}', "study.toml:4: key 'method.0.ladder': expected lists"),
+                (scene + '[[method]]\nname = "a"\nladder = {"integrator.courant" = [0.1]}\n[[method]]\nname = "b"\nladder = {"integrator.courant" = 0.1}', "study.toml:7: key 'method.1.ladder': expected lists"),
+                (scene + '[[method]]\nname = "a"\nrung = [{sett = {}}]', "study.toml:4: key 'method.0.sett': found an unknown key.*did you mean 'set'"),
+                (scene + '[[method]]\nname = "a"\neach = {"integrator.order" = [2, 3]}', "study.toml:4: key 'method.0.each': .*{} in the method's name"),
+                (scene + '[[method]]\nname = "a"\nquick = [1]', "study.toml:4: key 'method.0.quick': found \\[1\\], expected numbers of rungs from 0 to 0"),
+                (scene + '[report]\nkinds = ["methods"]', "found 'methods', but there is no"), (scene + '[quick]\nmembers = 2.5', "expected an integer"),
                 (scene + '[[method]]\nset = {}', "has no key 'name'"), (scene + '[[method]]\nname = "a"\n[[method]]\nname = "a"', "two methods of one name"),
                 (scene + '[[reference]]\nset = {}', "found 1 of \\[\\[reference\\]\\], expected two"),
                 (scene + 'set = {"space.celll" = 1}', "space.celll.*did you mean 'cell'")):
@@ -84,6 +89,44 @@ class StudyFile(Folder):
         self.assertEqual(ladders, {"MUSL", "ERK 3", "DIRK 3", "MUSL, substep", "MUSL, cvode"})
         self.assertEqual({case["kind"] for case in cases.values() if case["role"] == "refined"}, {"time", "local", "space"})
         self.assertEqual(len({json.dumps(case["settings"]) for case in cases.values()}), len(cases))
+
+
+    def test_error_bars_of_a_point_refine_what_the_point_has(self):
+        cases = plan.make(self.write(f"""
+scene = "{blocks}"
+[vary]
+"space.cell" = [1e-3, 2e-3]
+"integrator.step" = [4e-8, 2e-8]
+[report]
+kinds = ["sweep"]
+sweep_bars = ["time", "space"]
+"""), False)["cases"]
+        points = {case["point"]: case["settings"] for case in cases.values() if case["role"] == "point"}
+        self.assertEqual(len(points), 4)
+        for number, point in points.items():
+            refined = {case["effort"]: case["settings"] for case in cases.values() if case["role"] == "refined" and case["point"] == number}
+            self.assertEqual(refined["half the cell"]["space.cell"], 0.5 * point["space.cell"])
+            self.assertEqual(refined["half the step"]["integrator.step"], 0.5 * point["integrator.step"])
+            self.assertEqual(refined["half the step"]["space.cell"], point["space.cell"])
+
+    def test_cases_of_the_same_settings_share_a_run(self):
+        cases = plan.make(self.write(f"""
+scene = "{blocks}"
+[[method]]
+name = "{{}}"
+each = {{"integrator.scheme" = ["musl", "usf"]}}
+rung = [{{name = "long", members = 3}}, {{name = "short", set = {{"integrator.step" = 2e-8}}}}]
+[[method]]
+name = "again"
+set = {{"integrator.scheme" = "usf"}}
+ladder = {{"integrator.step" = [4e-8, 2e-8]}}
+[report]
+kinds = ["methods"]
+"""), False)["cases"]
+        self.assertEqual(len(cases), 2 * (3 + 1) + 2)
+        jobs = plan.jobs({"key": "", "cases": cases})
+        self.assertEqual(sorted(len(names) for names in jobs.values()), [1, 1, 1, 3, 3])
+        self.assertEqual(cases["rung-again-step-2e-08"]["run"], "rung-usf-short")
 
 
 class Shipped(unittest.TestCase):
@@ -250,21 +293,88 @@ sweep_bars = ["time"]
         page = (out / "report.html").read_text()
         missing = [part for part in ("Error bars", "What an accuracy costs", "Sweep", "MUSL, step 4e-07: failed", "Runs that did not come to their end") if part not in page]
         self.assertEqual(missing, [])
-        self.assert_page_works(out / "report.html")
+        assert_page_works(self, out / "report.html", ["Error bars", "What an accuracy costs", "Sweep"])
 
-    def assert_page_works(self, path):
-        """In a browser, where there is one: nothing to complain of, and no wider than a phone."""
-        sys.path.insert(0, str(source / "tests/python"))
-        import browser
-        if not browser.there:
-            return
-        driver = browser.start()
-        self.addCleanup(driver.quit)
-        browser.look(driver, 360, 740, "dark")
+
+def assert_page_works(test, path, parts=()):
+    """In a browser, where there is one: its text is there, nothing to complain of, no wider than a phone, in the light and in the dark."""
+    sys.path.insert(0, str(source / "tests/python"))
+    import browser
+    if not browser.there:
+        return
+    driver = browser.start()
+    test.addCleanup(driver.quit)
+    papers = []
+    for scheme in ("light", "dark"):
+        browser.look(driver, 360, 740, scheme)
         driver.get(f"file://{path}")
-        self.assertEqual(browser.complaints(driver), [])
-        self.assertLessEqual(driver.execute_script("return document.documentElement.scrollWidth"), 360)
-        self.assertEqual(driver.execute_script("return [...document.querySelectorAll('figure svg')].filter(each => each.getBoundingClientRect().height < 60).length"), 0)
+        test.assertEqual(browser.complaints(driver), [])
+        test.assertLessEqual(driver.execute_script("return document.documentElement.scrollWidth"), 360)
+        test.assertEqual(driver.execute_script("return [...document.querySelectorAll('figure svg')].filter(each => each.getBoundingClientRect().height < 60).length"), 0)
+        text = driver.execute_script("return document.body.innerText")
+        test.assertEqual([part for part in parts if part not in text], [])
+        papers.append(driver.execute_script("return getComputedStyle(document.body).backgroundColor"))
+    test.assertNotEqual(*papers)
+
+
+class Watched(Folder):
+    """watch.html, while a study runs, when it is stopped, and when it is done."""
+    text = f"""
+scene = "{blocks}"
+set = {{"time.end" = 4e-6}}
+[[method]]
+name = "MUSL"
+rung = [{{name = "coarse", set = {{"integrator.step" = 1e-7}}, members = 3}}, {{name = "fine", set = {{"integrator.step" = STEP}}}}]
+[[quantity]]
+name = "momentum given"
+from = "bodies.target.momentum.1"
+[report]
+kinds = ["methods"]
+"""
+
+    def start(self, step):
+        path = self.write(self.text.replace("STEP", str(step)))
+        study = subprocess.Popen([source / "studies/vitrum-study", path, "--out", self.folder / "out", "--watch", "1", "--cores", "1"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                 start_new_session=True)
+        self.addCleanup(study.wait)
+        self.addCleanup(lambda: study.poll() is None and os.killpg(study.pid, signal.SIGKILL))
+        return study
+
+    def page(self, ready):
+        """The page, once it is as wanted."""
+        path, deadline = self.folder / "out/watch.html", time.monotonic() + 240
+        while time.monotonic() < deadline:
+            if path.exists() and ready(text := path.read_text()):
+                return text
+            time.sleep(0.1)
+        raise AssertionError(path.read_text()[-3000:] if path.exists() else "no page")
+
+    def test_a_study_under_way_and_stopped(self):
+        # The fine run takes minutes: nobody waits for it.
+        study = self.start(1e-12)
+        text = self.page(lambda text: "3 of 4 cases done" in text)
+        for part in ('http-equiv="refresh" content="1"', "<progress", "Under way", "to come", "Method by method"):
+            self.assertIn(part, text)
+        copy = self.folder / "copy.html"
+        copy.write_text(text.replace('http-equiv="refresh"', ""))
+        assert_page_works(self, copy, ["3 of 4 cases done", "coarse", "momentum given"])
+        os.killpg(study.pid, signal.SIGINT)
+        text = self.page(lambda text: "Stopped" in text)
+        self.assertNotIn("http-equiv", text)
+        self.assertIn("3 of 4 cases done", text)
+
+    def test_a_study_that_comes_to_its_end(self):
+        study = self.start(5e-8)
+        self.assertEqual(study.wait(300), 0)
+        text = (self.folder / "out/watch.html").read_text()
+        self.assertEqual([part for part in ("http-equiv", "<progress", "Under way", "to come") if part in text], [])
+        rows = self.table("methods")
+        self.assertEqual([(row["setting"], row["members"], row["n"], row["status"]) for row in rows], [("coarse", 3, 3, "complete"), ("fine", 1, 1, "complete")])
+        coarse, fine = rows
+        self.assertTrue(coarse["p05"] <= coarse["median"] <= coarse["p95"])
+        self.assertAlmostEqual(coarse["p95"] / coarse["p05"], 1.0, delta=1e-6)
+        self.assertAlmostEqual(coarse["median"] / fine["median"], 1.0, delta=0.05)
+        assert_page_works(self, self.folder / "out/report.html", ["coarse", "Method by method"])
 
 
 class KnownAnswer(Folder):
