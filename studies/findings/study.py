@@ -8,8 +8,8 @@ from study.provenance import commit
 from study.tables import markdown, number, write_csv
 
 from findings import figures
-from findings.cases import (local_cases, local_methods, model_cases, models, picture_cases, press, resolved_step, scene, speed_cases, step_cases, us)
-from findings.measure import checked, ending, kinetic_apart, made, percent, place, point, row, span, time_text
+from findings.cases import (local_cases, model_cases, models, picture_cases, press, resolved_step, scene, speed_cases, step_cases, us)
+from findings.measure import checked, ending, kinetic_apart, made, percent, place, point, row, span
 
 name = "findings"
 page = "docs/reports/findings.md"

@@ -1,6 +1,5 @@
 """Tables, figures and the page of a study that is told by files; while it runs, the page of what is there."""
 import datetime
-import functools
 import pathlib
 
 import jinja2
@@ -69,16 +68,24 @@ def _trade(study, sheet):
     advice = [] if awaited else list(ladders.recommendations(rows))
     sheet.table("trade", rows)
     sheet.table("recommendations", advice)
-    points = list(dict.fromkeys(row["point"] for row in rows))
-    labels = {point: sweep.label(study, point) for point in points}
-    idle = {(labels[row["point"]], row["method"], row["setting"]): row["tolerance_idle"] for row in rows if row.get("tolerance_idle")}
-    return {"awaited": awaited, "figures": [text for point in points for text in [sheet.figure("-".join(["trade", *([str(point)] if point is not None else [])]), functools.partial(
-                figures.work_precision, [row for row in rows if row["point"] == point], labels[point]))] if text],
-            "references": list(dict.fromkeys(study.cases[name]["method"] for name in study.named_any("reference"))), "points": len(points) > 1,
-            "advice": [(*([labels[row["point"]]] if len(points) > 1 else []), row["quantity"], _percent(row["level"]), row["advice"], number(row.get("seconds")), _percent(row.get("error")),
+    labels = {point: sweep.label(study, point) for point in dict.fromkeys(row["point"] for row in rows)}
+    several = len(labels) > 1
+
+    def rung(row):
+        return ", ".join(filter(None, (labels[row["point"]], row["method"], row["setting"])))
+
+    def figure(point):
+        of = [row for row in rows if row["point"] == point]
+        return sheet.figure("trade" if point is None else f"trade-{point}", lambda: figures.work_precision(of, labels[point]))
+
+    idle = {rung(row): row["tolerance_idle"] for row in rows if row.get("tolerance_idle")}
+    failed = {rung(row): row["status"] for row in rows if row["status"] not in ("complete", "to come")}
+    return {"awaited": awaited, "figures": [figure(point) for point in labels], "points": several,
+            "references": list(dict.fromkeys(study.cases[name]["method"] for name in study.named_any("reference"))),
+            "advice": [(*([labels[row["point"]]] if several else []), row["quantity"], _percent(row["level"]), row["advice"], number(row.get("seconds")), _percent(row.get("error")),
                         _percent(row["references_apart"])) for row in advice],
-            "idle": [f"{', '.join(filter(None, where))}: the tolerance was idle in {_percent(share)} of the steps, which stability limited" for where, share in idle.items()],
-            "failed": sorted({", ".join(filter(None, (labels[row["point"]], row["method"], f"{row['setting']}: {row['status']}"))) for row in rows if row["status"] not in ("complete", "to come")})}
+            "idle": [f"{where}: the tolerance was idle in {_percent(share)} of the steps, which stability limited" for where, share in idle.items()],
+            "failed": [f"{where}: {status}" for where, status in failed.items()]}
 
 
 def _error_bars(study, sheet):
@@ -103,18 +110,18 @@ def _compared(each, row):
             f"(Kolmogorov-Smirnov, p = {row['same_distribution']:.2g}, {len(each.members)} and {len(each.finer)} members)")
 
 
-def _cell(value):
-    return value if isinstance(value, str) else number(value, 4)
-
-
 def _sweep(study, sheet):
     rows = list(sweep.sweep_rows(study))
     sheet.table("sweep", rows)
     shown = [*study.plan["varied"], "status", *[quantity.name for quantity in study.quantities]]
 
+    units = {quantity.name: quantity.unit for quantity in study.quantities}
+
     def cell(row, key):
+        if isinstance(row.get(key), str):
+            return row[key]
         bar = row.get(f"± {key}")
-        return _cell(row.get(key)) + (f" ±{number(bar, 2)}" if bar is not None else "")
+        return _with_unit(row.get(key), units.get(key, "")) + (f" ±{_with_unit(bar, units[key])}" if bar is not None else "")
 
     return {"figure": sheet.figure("sweep", lambda: figures.sweep(rows, study.plan["varied"], study.quantities)), "header": shown, "rows": [[cell(row, key) for key in shown] for row in rows]}
 
@@ -122,13 +129,20 @@ def _sweep(study, sheet):
 def _methods(study, sheet):
     rows = list(sweep.method_rows(study))
     sheet.table("methods", rows)
-    groups: dict[tuple, dict] = {}  # a line of the page: a point, a method, a rung
+    units = {quantity.name: quantity.unit for quantity in study.quantities}
+    lines: dict[tuple, dict] = {}  # of the page: a point, a method, a rung
     for row in rows:
-        line = groups.setdefault((*(row[key] for key in study.plan["varied"]), study.plan["titles"][row["method"]], row["setting"], row["status"], row["members"]), {})
-        line[row["quantity"]] = "–" if not row["n"] else _cell(row["median"]) + (f" ({_cell(row['p05'])} … {_cell(row['p95'])})" if row["n"] > 1 else "")
-    names = [quantity.name for quantity in study.quantities]
-    return {"header": [*study.plan["varied"], "method", "setting", "status", "members", *names],
-            "rows": [[*map(_cell, where), *[line.get(name, "–") for name in names]] for where, line in groups.items()]}
+        where = *(row[key] for key in study.plan["varied"]), study.plan["titles"][row["method"]], row["setting"], row["status"], row["members"]
+        lines.setdefault(where, {})[row["quantity"]] = _distribution(row, units[row["quantity"]])
+    return {"header": [*study.plan["varied"], "method", "setting", "status", "members", *units],
+            "rows": [[*(number(each, 4) for each in where), *[line.get(name, "–") for name in units]] for where, line in lines.items()]}
+
+
+def _distribution(row, unit):
+    """The median of members, and 5 to 95 % of them where there are several."""
+    if not row["n"]:
+        return "–"
+    return _with_unit(row["median"], unit) + (f" ({_with_unit(row['p05'], unit)} … {_with_unit(row['p95'], unit)})" if row["n"] > 1 else "")
 
 
 _parts = {"trade": _trade, "error-bars": _error_bars, "sweep": _sweep, "methods": _methods}

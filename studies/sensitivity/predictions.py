@@ -1,7 +1,7 @@
 """What a run predicts of the failure, and what differences are measured by."""
 import numpy as np
 
-# Key -> (name in the study's file, unit, scale from SI). Times are judged by the time of a wave through the plate, others by themselves.
+# Key -> (name in the study's file, unit, scale from SI).
 quantities = {
     "first_time": ("first localisation of the plate", "µs", 1e6), "first_radius": ("place of first localisation", "mm", 1e3),
     "separated_mass": ("separated mass of the plate", "g", 1e3), "outermost_radius": ("outermost localised radius", "mm", 1e3),
@@ -9,7 +9,6 @@ quantities = {
     "largest_fragment": ("largest fragment of the plate", "g", 1e3), "perforated": ("perforated", "share", 1.0),
     "made": ("energy made by the numerics", "%", 100.0)}
 drawn = ("first_time", "first_radius", "separated_mass", "outermost_radius", "cylinder_velocity", "fragments")
-wave_time = 5e-3 / 5879.0  # s
 # The least that an axis spans, in its unit: a fifth of a wave's way through the plate, a cell, and so on.
 matters = {"first_time": 0.17, "first_radius": 1.0, "separated_mass": 1.0, "outermost_radius": 5.0, "cylinder_velocity": 5.0, "fragments": 4.0}
 
@@ -26,10 +25,7 @@ def fragment_masses(outcome):
     return np.array(pieces[1:])
 
 
-def size(key, found):
-    """What differences of a prediction are measured by."""
-    if key == "first_time":
-        return wave_time
-    if key in ("perforated", "made"):
-        return 1.0
-    return abs(found["median"]) or 1.0
+def sizes(study, base):
+    """What differences of each prediction are measured by: the scale that the file gives, or its median in the base ensemble. `base`: distributions by key."""
+    of = {quantity.name: quantity for quantity in study.quantities}
+    return {key: of[label].scale or abs(base[key].get("median", 0.0)) or 1.0 for key, (label, _, _) in quantities.items()}

@@ -10,7 +10,7 @@ from study.tables import markdown, number, write_csv
 
 from sensitivity import figures
 from sensitivity.ensembles import base, by_name, fragmenting, questions, resolved
-from sensitivity.predictions import fragment_masses, of_ensemble, quantities, size
+from sensitivity.predictions import fragment_masses, of_ensemble, quantities, sizes
 
 name = "sensitivity"
 small, large = 0.05, 0.2  # relative: what counts as little and as much
@@ -23,15 +23,14 @@ def _spread(study, ensemble):
     return drifts[0][0][:reached], np.array([apart[:reached] for _, apart in drifts])
 
 
-def _shift(key, names, found):
+def _shift(key, size, names, found):
     """Largest distance between medians of the ensembles, over the prediction's size; None when fewer than two predict it."""
     medians = [found[each][key]["median"] for each in names if each in found and found[each][key]["n"]]
-    return (max(medians) - min(medians)) / size(key, found[base][key]) if len(medians) > 1 else None
+    return (max(medians) - min(medians)) / size if len(medians) > 1 else None
 
 
-def _scatter(key, found):
-    stats = found[base][key]
-    return (stats["p95"] - stats["p05"]) / size(key, stats) if stats["n"] else None
+def _scatter(stats, size):
+    return (stats["p95"] - stats["p05"]) / size if stats["n"] else None
 
 
 def verdict(scatter, coarse, resolved):
@@ -47,15 +46,15 @@ def verdict(scatter, coarse, resolved):
     return "robust" if scatter <= small else f"robust to {number(100 * scatter, 2)} %"
 
 
-def _robustness(found, asked):
+def _robustness(found, asked, measured_by):
     groups = {question: [ensemble.name for ensemble in ensembles] for question, (_, ensembles) in asked.items()}
-    for key in quantities:
-        stats, scatter = found[base][key], _scatter(key, found)
-        coarse = _shift(key, groups.get("step", []) + groups.get("tolerance", []), found)
-        row = {"prediction": quantities[key][0], "unit": quantities[key][1], "scatter": scatter, "resolved": _shift(key, resolved, found), "steps and tolerances": coarse}
+    for key, size in measured_by.items():
+        stats, scatter = found[base][key], _scatter(found[base][key], size)
+        coarse = _shift(key, size, groups.get("step", []) + groups.get("tolerance", []), found)
+        row = {"prediction": quantities[key][0], "unit": quantities[key][1], "scatter": scatter, "resolved": _shift(key, size, resolved, found), "steps and tolerances": coarse}
         scale = quantities[key][2]
         row |= {which: scale * stats[which] if stats["n"] else None for which in ("median", "p05", "p95")}
-        row |= {question: _shift(key, names, found) for question, names in groups.items()}
+        row |= {question: _shift(key, size, names, found) for question, names in groups.items()}
         yield row | {"verdict": verdict(scatter, coarse, row["resolved"])}
 
 
@@ -69,7 +68,7 @@ def report(quick, out):
               [{"ensemble": key, "member": n, "status": study.status(case), **row} for key in members for n, (case, row) in enumerate(zip(ensembles[key].cases, members[key]), 1)])
     write_csv(out / "tables" / "ensembles.csv", ["ensemble", "quantity", "members", "n", "median", "p05", "p95", "median_low", "median_high", "mean", "std"],
               [{"ensemble": key, "quantity": quantity, "members": len(members[key]), **found[key][quantity]} for key in found for quantity in quantities])
-    rows = list(_robustness(found, asked))
+    rows = list(_robustness(found, asked, sizes(study, found[base])))
     write_csv(out / "tables" / "robustness.csv", list(rows[0]), rows)
     limits = figures.scales(found)
     for key, (title, of) in asked.items():

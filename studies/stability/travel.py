@@ -1,5 +1,4 @@
 """Growth of disturbances of a row that travels through the grid."""
-import h5py
 import numpy as np
 from study.case import Case
 from study.outcome import run
@@ -26,22 +25,20 @@ def case(scheme, shape, per_side, speed, dt):
         "boundary.1.box.max.0": -1.0, "boundary.2.box.min.0": 1.0})
 
 
-def roughness(folder, per_side):
+def roughness(results, per_side):
     """Root mean square second difference between neighbours along the row, over the wave speed: short waves only. By output:
     distance travelled (cells) and roughness."""
-    with h5py.File(folder / "result.h5") as result:
-        steps = [result["steps"][name]["particles"] for name in sorted(result["steps"])]
-        first = steps[0]["position"][:, 0]
-        order = np.argsort(first, kind="stable")[::per_side]
-        middle = order[len(order) // 4: -len(order) // 4]
-        distance = np.array([np.median(step["position"][middle, 0] - first[middle]) for step in steps]) / cell
-        return distance, np.array([np.sqrt(np.mean(np.diff(step["velocity"][middle, 0], 2) ** 2)) for step in steps]) / wave_speed
+    places, velocities = results.fields("position")[:, :, 0], results.fields("velocity")[:, :, 0]
+    order = np.argsort(places[0], kind="stable")[::per_side]
+    middle = order[len(order) // 4: -len(order) // 4]
+    distance = np.median(places[:, middle] - places[0, middle], axis=1) / cell
+    return distance, np.sqrt(np.mean(np.diff(velocities[:, middle], 2, axis=1) ** 2, axis=1)) / wave_speed
 
 
 def measured_growth(scheme, shape, per_side, speed, dt, runs):
     """Amplitude's growth per cell, from a straight line through the logarithms; None where too few outputs are left."""
     outcome = run(case(scheme, shape, per_side, speed, dt), runs)
-    distance, values = roughness(outcome.folder, per_side)
+    distance, values = roughness(outcome.results, per_side)
     values = np.where(np.isfinite(values), values, np.inf)
     beyond = np.nonzero(values > largest)[0]
     stop = beyond[0] if beyond.size else len(values)

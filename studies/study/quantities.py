@@ -136,9 +136,15 @@ def speed_of(scene):
     return max(speeds, default=0.0) or None
 
 
+small = 0.01  # of a run's energy: what is less is measured by so much
+
+
 def scale(quantity, scene, summary):
-    """What a quantity's errors are measured by: its own `scale`; of velocities the scene's largest speed, of times its duration, of energies what the run began
-    with; of others their own size in the run of this `summary` (1 where that is nothing)."""
+    """What a quantity's errors are measured by: its own `scale`; of velocities the scene's largest speed, of times its duration; of others their own size in the run of
+    this `summary`, but of energies at least a hundredth of what it began with or was given (1 where that is nothing)."""
     time, energy = scene["time"], summary["energy"]
-    known = {"m/s": speed_of(scene), "s": time["end"] - time["start"], "J": energy["initial"] or abs(energy["external"])}
-    return quantity.scale or known.get(quantity.unit) or abs(value(quantity.source, summary) or 0.0) or 1.0
+    known = {"m/s": speed_of(scene), "s": time["end"] - time["start"]}
+    size = abs(value(quantity.source, summary) or 0.0)
+    if quantity.unit == "J":
+        size = max(size, small * (energy["initial"] or abs(energy["external"])))
+    return quantity.scale or known.get(quantity.unit) or size or 1.0
