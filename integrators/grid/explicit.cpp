@@ -11,6 +11,7 @@
 #include "mpm/coasting.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/reactions.hpp"
@@ -71,6 +72,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
     mpm::sweep(system, until_moved);
   }
   stress.book();
+  mpm::update_domains(system);
   mpm::book_reactions(system, duration);
   mpm::coast(system, duration);
   if (system.contact) system.contact->end_step(system);

@@ -11,6 +11,7 @@
 #include "integrators/grid/step_pacing.hpp"
 #include "mpm/carried.hpp"
 #include "mpm/centroids.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
 
@@ -367,9 +368,27 @@ void GridSystem::commit(double t, const double* y) {
   }
 }
 
+/// Adds the logarithmic strain of the phase, to second order in U - I, to those that domains follow: not
+/// before the phase ends, whose nodes are those of its start.
+void GridSystem::stretch_domains() {
+  for (std::size_t body = 0; body < system_.bodies.size(); ++body) {
+    Particles& p = system_.bodies[body].particles;
+    if (!mpm::have_domains(p)) continue;
+    const Deformation& d = deformations_[body];
+    for (std::size_t i = 0; i < p.size; ++i) {
+      const double rr = d.committed_strain[0][i], zz = d.committed_strain[1][i],
+                   rz = d.committed_strain[3][i];
+      const SymmetricTensor strain{rr - 0.5 * (rr * rr + rz * rz), zz - 0.5 * (zz * zz + rz * rz), 0.0,
+                                   rz - 0.5 * rz * (rr + zz)};
+      mpm::add_stretch(p, system_.bodies[body].column("effective_length"), i, strain, d.committed_turn[i]);
+    }
+  }
+}
+
 double GridSystem::end_phase(const double* y) {
   const std::size_t n = nodes_.size();
   const double on_grid = system_.record.kinetic;
+  stretch_domains();
   mpm::fill_field(system_, nodes_, start_velocity_.data(), held_at_start_, Field::velocity_0);
   mpm::fill_field(system_, nodes_, y + n, held_committed_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
@@ -380,6 +399,7 @@ double GridSystem::end_phase(const double* y) {
   mpm::fill_field(system_, nodes_, y, mpm::boundary_ways(system_, start_time_, committed_time_),
                   Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::position, 1.0);
+  mpm::update_domains(system_);
   system_.record.particles_moved = true;
   return on_grid - system_.record.kinetic;
 }

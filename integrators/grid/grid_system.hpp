@@ -72,6 +72,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   double tolerance_of(std::size_t unknown) const;
 
  private:
+  void stretch_domains();
   struct Deformation {
     std::array<std::vector<double>, 5> gradient;  ///< (rr, rz, zr, zz, tt)
     mpm::FiniteStrain at(std::size_t i) const {

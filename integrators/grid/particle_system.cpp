@@ -13,6 +13,7 @@
 #include "mpm/carried.hpp"
 #include "mpm/centroids.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
@@ -193,8 +194,10 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   const mpm::Trial::Scope scope(system_, trial_);
   load(y);
   mpm::refresh_grid_for_positions(system_);
+  const bool changed = set_increments(y);
+  mpm::try_domains(system_);
   mpm::find_centroids(system_);
-  try_stress(t, set_increments(y));
+  try_stress(t, changed);
   for (std::size_t n = 0; n < system_.bodies.size(); ++n)
     for (const std::size_t i : mirrored_[n]) {
       double& shear = system_.bodies[n].particles.tried_stress[3][i];
@@ -288,6 +291,8 @@ bool ParticleSystem::commit(double t, double* y) {
     }
   set_increments(y);
   mpm::update_stress(system_, duration);
+  mpm::add_stretches(system_);
+  mpm::update_domains(system_);
   for_each_part([&](const Part& part, std::size_t) {
     const auto [n, begin, end] = part;
     const TensorPointers<const double> e = strain_arrays(n, y);

@@ -13,6 +13,8 @@ void warn_of_motion(const Scene& scene, const System& system, Warnings& list);
 /// Linear functions where bodies cross more than a few cells of the grid, by their speed at the start or that
 /// of a boundary: every crossing makes or loses energy.
 void warn_of_travel(const Scene& scene, const System& system, Warnings& list);
+/// Domains that follow the stretch of a body with one particle a cell: such rows tear between cells.
+void warn_of_one_row(const Scene& scene, Warnings& list);
 
 /// What the end of a run with contact tells: surfaces that were pressed further than they bear.
 void warn_of_depth(const System& system, Warnings& list);

@@ -9,6 +9,7 @@
 #include "app/plausibility.hpp"
 #include "app/simulation.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/filter.hpp"
 #include "mpm/stress.hpp"
 #include "observe/bodies.hpp"
@@ -109,6 +110,11 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
                     "that nodes do "
                     "not see; try space.filter = \"pressures\" or one particle a cell",
                     scene_.at("body"), 100.0 * s.ringing / s.energy.scale()));
+  if (const std::size_t count = mpm::overstretched(system_); count > 0)
+    list.push_back(
+        fmt::format("{}: {} particles have been stretched to more than two cells, which is as far "
+                    "as shape functions follow them; try larger cells or more particles a cell",
+                    scene_.at("space.shape_functions"), count));
   if (const auto idle = idle_tolerance(scene_, s.integrator)) list.push_back(scene::single_line(*idle));
   return list;
 }

@@ -130,6 +130,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
     std::ranges::move(material_warnings(m), std::back_inserter(list));
   warn_of_motion(scene, system, list);
   warn_of_travel(scene, system, list);
+  warn_of_one_row(scene, list);
   warn_of_geometry(scene, system, list);
   for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several
   return list;

@@ -12,7 +12,7 @@ inline void reflect_at_axis(Particles& p, std::size_t i) {
   flip(p.velocity[0]), flip(p.elastic_strain[3]);
   flip(p.strain_increment[3]), flip(p.spin_increment);
   for (const std::size_t k : p.flipping) flip(p.variables[k]);
-  flip(p.turn), flip(p.mirrored);
+  flip(p.turn), flip(p.mirrored), flip(p.stretch[2]);
 }
 
 }  // namespace vitrum::mpm

@@ -87,7 +87,7 @@ Carried carry_tile(System& system, std::size_t tile, double slack, double* impul
     Particles& p = body.particles;
     for_chunks(grid, tile, n, [&](const Chunk& chunk) {
       const ColumnReader r(chunk, p.position[0]), z(chunk, p.position[1]);
-      const Stencils<kind> at(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      const Stencils<kind> at(chunk, block, per_cell, body, r, z);
       for (std::size_t k = 0; k < chunk.size(); ++k)
         for (std::size_t c = 0; c < 2; ++c) {
           const std::size_t i = chunk.place(k);

@@ -26,7 +26,7 @@ void collect_tile(const Pass& pass, std::size_t tile) {
     for_chunks(grid, tile, n, [&](const Chunk& chunk) {
       const ColumnReader r(chunk, body.particles.position[0]), z(chunk, body.particles.position[1]),
           mass(chunk, body.particles.mass);
-      const Stencils<kind> at(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      const Stencils<kind> at(chunk, block, per_cell, body, r, z);
       for (std::size_t k = 0; k < chunk.size(); ++k) {
         const double weight = axisymmetric ? mass[k] / hoop_radius(r[k], grid.cell()) : mass[k];
         const auto entry = static_cast<std::int32_t>(at.entry(k));
@@ -91,7 +91,7 @@ void spread_tile(const Pass& pass, std::size_t tile) {
     Body& body = system.bodies[n];
     for_chunks(grid, tile, n, [&](const Chunk& chunk) {
       const ColumnReader r(chunk, body.particles.position[0]), z(chunk, body.particles.position[1]);
-      const Stencils<kind> at(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      const Stencils<kind> at(chunk, block, per_cell, body, r, z);
       auto& to = body.particles.centroids;
       ColumnWriter rr(chunk, to[0]), rz(chunk, to[1]), zr(chunk, to[2]), zz(chunk, to[3]),
           from_r(chunk, body.particles.from_centroids[0]), from_z(chunk, body.particles.from_centroids[1]);

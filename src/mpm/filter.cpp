@@ -27,7 +27,7 @@ double trace_of(const Particles& p, std::size_t i) {
 }
 
 /// Energy removed, J (per radian or per metre).
-double filter(Body& body, double cell) {
+double filter(parallel::ThreadTeam& team, Body& body, double cell) {
   Particles& p = body.particles;
   const std::vector<double>& cracked = body.column("effective_length");
   const bool tension_damages = body.material->parameters().damage.has_value();
@@ -37,18 +37,17 @@ double filter(Body& body, double cell) {
     traces[i] = trace_of(p, i);
     if ((!cracked.empty() && cracked[i] > 0.0) || (tension_damages && !(traces[i] < 0.0))) counted[i] = 0;
   }
-  const std::vector<double> unseen = CellAverage(body, cell, counted).differences(traces, sharpness);
-  double removed = 0.0;
+  const CellAverage average(team, body, cell, counted);
+  const std::vector<double> unseen = average.differences(traces, sharpness);
   const double specific_volume = 1.0 / body.material->density();
-  for (std::size_t i = 0; i < p.size; ++i) {
-    if (unseen[i] == 0.0 || (tension_damages && !(traces[i] - unseen[i] < 0.0))) continue;
+  return average.sum([&](std::size_t i) {
+    if (unseen[i] == 0.0 || (tension_damages && !(traces[i] - unseen[i] < 0.0))) return 0.0;
     PointState s = point_of(body, i);
     const double before = body.material->stored_energy(s);
     s.elastic_strain -= (unseen[i] / 3.0) * identity();
-    removed += p.mass[i] * specific_volume * (before - body.material->stored_energy(s));
     put_point(s, body, i);
-  }
-  return removed;
+    return p.mass[i] * specific_volume * (before - body.material->stored_energy(s));
+  });
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ bool filter_pressures(System& system, double from, double to) {
   if (std::floor(from / every) == std::floor(to / every)) return false;
   double removed = 0.0;
   for (Body& body : system.bodies)
-    if (!body.coasting) removed += filter(body, system.cell);
+    if (!body.coasting) removed += filter(*system.team, body, system.cell);
   system.record.filtered += removed;
   system.record.elastic -= removed;
   return true;
@@ -73,12 +72,12 @@ double ringing_energy(const System& system) {
     std::vector<double> pressure(p.size);
     for (std::size_t i = 0; i < p.size; ++i)
       pressure[i] = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3.0;
-    const std::vector<double> own =
-        CellAverage(body, system.cell, std::vector<char>(p.size, 1)).differences(pressure, 1);
+    const CellAverage average(*system.team, body, system.cell, std::vector<char>(p.size, 1));
+    const std::vector<double> own = average.differences(pressure, 1);
     const double bulk = elastic_moduli(body.material->parameters().elastic).bulk,
                  specific_volume = 1.0 / body.material->density();
-    for (std::size_t i = 0; i < p.size; ++i)
-      sum += p.mass[i] * specific_volume * own[i] * own[i] / (2.0 * bulk);
+    sum += average.sum(
+        [&](std::size_t i) { return p.mass[i] * specific_volume * own[i] * own[i] / (2.0 * bulk); });
   }
   return sum;
 }

@@ -47,7 +47,7 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
     Particles& p = body.particles;
     for_chunks(grid, tile, n, [&](const Chunk& chunk) {
       const ColumnReader r(chunk, p.position[0]), z(chunk, p.position[1]);
-      const Stencils<kind> stencils(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      const Stencils<kind> stencils(chunk, block, per_cell, body, r, z);
       at.gather(stencils, chunk.size(), nodes);
       if constexpr (P::gradient)
         if (!p.centroids[0].empty()) at.take_between_centroids(chunk, p);
@@ -65,7 +65,7 @@ double gather_tile(System& system, std::size_t tile, double duration, [[maybe_un
         }
       if constexpr (P::strain) {
         if (stress != nullptr)
-          strain_and_stress<axisymmetric>(chunk, p, tile, n, *stress, at, r, cell, duration);
+          strain_and_stress<axisymmetric>(chunk, body, tile, n, *stress, at, r, cell, duration);
         else
           store_strain<axisymmetric>(chunk, p, at, r, cell, duration);
       }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "mpm/axis.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/gather_plan.hpp"
 #include "mpm/stencil.hpp"
 #include "mpm/stress_update.hpp"
@@ -66,9 +67,10 @@ void store_strain(const Chunk& chunk, Particles& p, const Interpolated<P>& at, c
 
 /// The same without a detour through memory that no one else will read.
 template <bool axisymmetric, class P>
-void strain_and_stress(const Chunk& chunk, Particles& p, std::size_t tile, std::size_t body,
+void strain_and_stress(const Chunk& chunk, Body& owner, std::size_t tile, std::size_t body,
                        StressUpdate& stress, const Interpolated<P>& at, const ColumnReader& radius,
                        double cell, double duration) {
+  Particles& p = owner.particles;
   ChunkIncrements increments;
   auto& e = increments.strain;
   interpolate_strain<axisymmetric>(chunk.size(), at, radius, cell, duration, {e[0], e[1], e[2], e[3]},
@@ -76,6 +78,11 @@ void strain_and_stress(const Chunk& chunk, Particles& p, std::size_t tile, std::
   stress.take(tile, body, chunk, increments);
   if (!p.turn.empty())
     for (std::size_t k = 0; k < chunk.size(); ++k) p.turn[chunk.place(k)] += increments.spin[k];
+  if (have_domains(p)) {
+    const std::vector<double>& length = owner.column("effective_length");
+    for (std::size_t k = 0; k < chunk.size(); ++k)
+      add_stretch(p, length, chunk.place(k), {e[0][k], e[1][k], e[2][k], e[3][k]}, increments.spin[k]);
+  }
   if (!p.centroids[0].empty()) {
     ColumnWriter spin(chunk, p.spin_increment);
     std::copy_n(increments.spin, chunk.size(), spin.data());

@@ -26,6 +26,10 @@ struct Particles {
   std::vector<double> turn;      ///< rad since the start, counter-clockwise from r to z
   std::vector<double> mirrored;  ///< 1, or -1 where the particle has become its own image at the axis
 
+  // With shape functions over domains that follow the particles (mpm/domain.hpp), else empty.
+  std::array<std::vector<double>, 3> stretch;  ///< logarithmic strain since the start, (rr, zz, rz)
+  std::array<std::vector<double>, 2> domain;   ///< m, half of its extent along r and z
+
   // Scratch, empty where passes take particles over their increments at once (mpm/transfer.hpp): strain
   // increment in the frame that turns with the particle, and turn.
   TensorColumns strain_increment;
@@ -84,6 +88,11 @@ struct Body {
   }
   std::int32_t field_of(std::size_t particle) const {
     return fragments.empty() ? field : fragments[particles.identity[particle]];
+  }
+  /// Half of what shape functions average over at a particle, m.
+  double half(std::size_t axis, std::size_t particle) const {
+    const std::vector<double>& own = particles.domain[axis];
+    return own.empty() ? particle_half_size : own[particle];
   }
   /// Particles that take part in the grid.
   std::size_t on_grid() const { return coasting ? 0 : particles.size; }

@@ -160,7 +160,7 @@ void scatter_tile(System& system, std::size_t tile) {
     const Body& body = system.bodies[n];
     for_chunks(grid, tile, n, [&](const Chunk& chunk) {
       const ColumnReader r(chunk, body.particles.position[0]), z(chunk, body.particles.position[1]);
-      const Stencils<kind> at(chunk, block, per_cell, body.particle_half_size * per_cell, r, z);
+      const Stencils<kind> at(chunk, block, per_cell, body, r, z);
       gives.gather(chunk, body, grid.cell(), r);
       for (std::size_t k = 0; k < chunk.size(); ++k) {
         const Contribution<P::width>& c = gives[k];

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "mpm/shape_kind.hpp"
 
@@ -55,15 +56,13 @@ struct Shape1<ShapeKind::bspline2> {
   }
 };
 
-/// Uniform GIMP: the linear function averaged over the particle's initial square.
-template <>
-struct Shape1<ShapeKind::gimp> {
-  static constexpr int count = 3;
-  static Weights1<3> at(double x, double half) {
-    const std::int32_t first = cell_of(x - half);
+/// The linear function averaged over what a particle extends over, at the nodes from `first` on.
+struct AveragedHat {
+  template <int count>
+  static Weights1<count> at(std::int32_t first, double x, double half) {
     const double width = 0.5 / half;
-    Weights1<3> w{first, {}, {}};
-    for (int k = 0; k < 3; ++k) {
+    Weights1<count> w{first, {}, {}};
+    for (int k = 0; k < count; ++k) {
       const double node = static_cast<double>(first + k), low = x - half - node, high = x + half - node;
       w.value[static_cast<std::size_t>(k)] = width * (area(high) - area(low));
       w.slope[static_cast<std::size_t>(k)] = width * (hat(high) - hat(low));
@@ -78,6 +77,24 @@ struct Shape1<ShapeKind::gimp> {
     if (t <= -1.0) return 0.0;
     if (t >= 1.0) return 1.0;
     return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 0.5 + t - 0.5 * t * t;
+  }
+};
+
+/// Uniform GIMP: the average over the particle's initial square.
+template <>
+struct Shape1<ShapeKind::gimp> {
+  static constexpr int count = 3;
+  static Weights1<3> at(double x, double half) { return AveragedHat::at<3>(cell_of(x - half), x, half); }
+};
+
+/// The average over a domain that follows the particle's stretch (mpm/domain.hpp), up to twice the cell.
+template <>
+struct Shape1<ShapeKind::cpgimp> {
+  static constexpr int count = 4;
+  static constexpr double largest_half = 1.0;
+  /// last: where the nodes may begin at the latest, whose weights are 0 beyond.
+  static Weights1<4> at(double x, double half, std::int32_t last = std::numeric_limits<std::int32_t>::max()) {
+    return AveragedHat::at<4>(std::min(cell_of(x - half), last), x, half);
   }
 };
 

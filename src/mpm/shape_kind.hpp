@@ -2,6 +2,6 @@
 
 namespace vitrum::mpm {
 
-enum class ShapeKind { linear, gimp, bspline2 };
+enum class ShapeKind { linear, gimp, cpgimp, bspline2 };
 
 }  // namespace vitrum::mpm

@@ -39,11 +39,10 @@ void for_stencils(const System& system, F&& f) {
     const std::span<const Image> images = grid.images(tile);
     for (std::size_t n = 0; n < system.bodies.size(); ++n) {
       const Body& body = system.bodies[n];
-      const double half = body.particle_half_size * per_cell;
       const Grid::Range range = grid.particles(tile, n);
       for (const std::uint32_t* k = range.begin; k != range.end; ++k) {
-        const auto wr = S::at(body.particles.position[0][*k] * per_cell, half),
-                   wz = S::at(body.particles.position[1][*k] * per_cell, half);
+        const auto wr = S::at(body.particles.position[0][*k] * per_cell, body.half(0, *k) * per_cell),
+                   wz = S::at(body.particles.position[1][*k] * per_cell, body.half(1, *k) * per_cell);
         std::size_t count = 0;
         for (std::size_t b = 0; b < S::count; ++b)
           for (std::size_t a = 0; a < S::count; ++a) {
@@ -67,12 +66,13 @@ void for_stencils(const System& system, F&& f) {
   }
 }
 
-template <class From, class To>
-std::size_t offset_between(const From& a, const To& b) {
-  return static_cast<std::size_t>((b.row - a.row + 2) * 5 + b.column - a.column + 2);
-}
-
 }  // namespace
+
+/// Of node b from node a.
+template <class Node>
+std::size_t Stiffness::offset_between(const Node& a, const Node& b) {
+  return static_cast<std::size_t>((b.row - a.row + reach) * width + b.column - a.column + reach);
+}
 
 void Stiffness::list_shares(const System& system, const NodalUnknowns& unknowns,
                             std::span<const CarrierPair> couplings) {
@@ -174,7 +174,7 @@ void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns,
       for (const StencilNode& from : stencil)
         for (const StencilNode& to : stencil)
           if (from.node >= 0 && to.node >= 0)
-            links_[static_cast<std::size_t>(from.node)].mask |= 1U << offset_between(from, to);
+            links_[static_cast<std::size_t>(from.node)].mask |= std::uint64_t{1} << offset_between(from, to);
     });
   });
   pattern_.column.assign(1, 0);
@@ -190,7 +190,7 @@ void Stiffness::lay_out(const System& system, const NodalUnknowns& unknowns,
     for (int o = 0; o < offsets; ++o) {
       links.first_row[static_cast<std::size_t>(o)] = rows;
       if ((links.mask >> o & 1U) == 0) continue;
-      const std::int64_t other = node_at(block, i + o % 5 - reach, j + o / 5 - reach);
+      const std::int64_t other = node_at(block, i + o % width - reach, j + o / width - reach);
       for (std::size_t c = 0; c < 2; ++c) {
         const std::int32_t row = unknowns.number[2 * static_cast<std::size_t>(other) + c];
         if (row < 0) continue;

@@ -42,10 +42,12 @@ class Stiffness {
            std::vector<double>& values) const;
 
  private:
-  /// Neighbours of a node are told by their offset in [-2, 2]^2.
-  static constexpr int reach = 2, offsets = 25;
+  /// Neighbours of a node are told by their offset in [-3, 3]^2.
+  static constexpr int reach = 3, width = 2 * reach + 1, offsets = width * width;
+  template <class Node>
+  static std::size_t offset_between(const Node& a, const Node& b);
   struct Links {
-    std::uint32_t mask = 0;                         ///< offsets that share a particle
+    std::uint64_t mask = 0;                         ///< offsets that share a particle
     std::array<std::uint8_t, offsets> first_row{};  ///< rows of a column before those of an offset
   };
   /// Share of a particle's motion that an unknown has.

@@ -9,7 +9,7 @@ void for_each_column(AnyParticles& p, Call&& call) {
   const auto all = [&](auto& columns) {
     for (auto& column : columns) call(column);
   };
-  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables);
+  all(p.position), all(p.velocity), all(p.elastic_strain), all(p.variables), all(p.stretch), all(p.domain);
   call(p.mass), call(p.identity), call(p.turn), call(p.mirrored);
 }
 

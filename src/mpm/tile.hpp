@@ -154,6 +154,8 @@ void dispatch(const Grid& grid, F&& f) {
         return f.template operator()<ShapeKind::linear, axisymmetric>();
       case ShapeKind::gimp:
         return f.template operator()<ShapeKind::gimp, axisymmetric>();
+      case ShapeKind::cpgimp:
+        return f.template operator()<ShapeKind::cpgimp, axisymmetric>();
       case ShapeKind::bspline2:
         return f.template operator()<ShapeKind::bspline2, axisymmetric>();
     }

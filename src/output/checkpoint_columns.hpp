@@ -23,7 +23,22 @@ auto stored_columns(ParticlesType& particles) {
   for (std::size_t c = 0; c < 4; ++c)
     columns.emplace_back(std::string("elastic_strain_") + components[c], &particles.elastic_strain[c]);
   columns.emplace_back("turn", &particles.turn), columns.emplace_back("mirrored", &particles.mirrored);
+  for (std::size_t c = 0; c < 3; ++c)
+    columns.emplace_back(std::string("stretch_") + components[c == 2 ? 3 : c], &particles.stretch[c]);
+  columns.emplace_back("domain_r", &particles.domain[0]),
+      columns.emplace_back("domain_z", &particles.domain[1]);
   return columns;
+}
+
+template <std::size_t n>
+bool is_one_of(const std::array<std::vector<double>, n>& columns, const std::vector<double>& column) {
+  return &column >= columns.data() && &column < columns.data() + n;
+}
+
+/// Whether a column is empty in some scenes.
+inline bool may_be_absent(const Particles& p, const std::vector<double>& column) {
+  return &column == &p.turn || &column == &p.mirrored || is_one_of(p.stretch, column) ||
+         is_one_of(p.domain, column);
 }
 
 }  // namespace vitrum::output

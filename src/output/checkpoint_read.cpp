@@ -48,7 +48,7 @@ BodyCheckpoint read_body(const Group& group) {
   particles.identity = group.read_indices("identity");
   particles.size = particles.identity.size();
   for (const auto& [name, column] : stored_columns(particles)) {
-    if ((column == &particles.turn || column == &particles.mirrored) && !group.has(name)) continue;
+    if (may_be_absent(particles, *column) && !group.has(name)) continue;
     *column = group.read_doubles(name);
     require_size(group, name, column->size(), particles.size);
   }

@@ -11,6 +11,7 @@
 #include "integrators/local/local_method.hpp"
 #include "mpm/computation_error.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/domain.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/point.hpp"
 #include "mpm/transfer.hpp"
@@ -209,6 +210,7 @@ System build_system(const Scene& scene, int threads) {
   system.filters = scene.filter == Filter::pressures;
   system.grid =
       mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
+  if (scene.shape_functions == mpm::ShapeKind::cpgimp) mpm::keep_domains(system);
   mpm::set_loads(system, system.time, system.time, mpm::Accelerations::none);
   system.record.impulses.resize(2 * system.grid.boundaries().size());
   system.local = make_local_integrator(scene.constitutive);

@@ -12,6 +12,7 @@ inline constexpr std::array geometries{Named{"axisymmetric", Geometry::axisymmet
                                        Named{"plane-strain", Geometry::plane_strain}};
 inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::linear},
                                             Named{"gimp", mpm::ShapeKind::gimp},
+                                            Named{"cpgimp", mpm::ShapeKind::cpgimp},
                                             Named{"bspline2", mpm::ShapeKind::bspline2}};
 inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
                                       Named{"centroids", Gradients::centroids}};

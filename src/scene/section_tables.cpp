@@ -74,14 +74,16 @@ const Table& space_table() {
         "side of the square grid cells; the grid is unbounded",
         required},
        {"shape_functions", &Scene::shape_functions, shape_functions,
-        "`linear`: the hat functions of the original method, for bodies that hardly cross cells"},
+        "`linear`: the hat functions of the original method, for bodies that hardly cross cells; `gimp`: "
+        "their "
+        "averages over the squares that particles were at the start; `cpgimp`: over squares that follow the "
+        "particles' stretch, for bodies drawn or pressed by more than a fifth; `bspline2`: quadratic"},
        {"gradients", &Scene::gradients, gradients,
         "velocity gradients between nodes, as in the original method, or between the centroids of what nodes "
         "collect: bodies that turn are not strained"},
        {"filter", &Scene::filter, filters,
         "`pressures`: what particles of a cell store against each other, and nodes do not see, is removed "
-        "and "
-        "booked as `filtered`; for more than one particle a cell"}});
+        "and booked as `filtered`; for more than one particle a cell"}});
   return table;
 }
 

@@ -12,7 +12,7 @@ template <mpm::ShapeKind kind>
 std::vector<NodeIndex> nodes(const System& system, const Body& body, const Box& box) {
   using Shape = mpm::Shape1<kind>;
   constexpr double share = 1e-9;
-  const double per_cell = 1.0 / system.cell, half = body.particle_half_size * per_cell;
+  const double per_cell = 1.0 / system.cell;
   std::vector<NodeIndex> found;
   const Particles& p = body.particles;
   const double slack = 1e-9 * system.cell, reach = 2.0 * system.cell;
@@ -22,8 +22,8 @@ std::vector<NodeIndex> nodes(const System& system, const Body& body, const Box& 
   };
   for (std::size_t i = 0; i < p.size; ++i) {
     if (!inside({p.position[0][i], p.position[1][i]}, reach)) continue;
-    const auto x = Shape::at(p.position[0][i] * per_cell, half),
-               y = Shape::at(p.position[1][i] * per_cell, half);
+    const auto x = Shape::at(p.position[0][i] * per_cell, body.half(0, i) * per_cell),
+               y = Shape::at(p.position[1][i] * per_cell, body.half(1, i) * per_cell);
     for (std::size_t b = 0; b < static_cast<std::size_t>(Shape::count); ++b)
       for (std::size_t a = 0; a < static_cast<std::size_t>(Shape::count); ++a) {
         const NodeIndex node{x.first + static_cast<std::int64_t>(a), y.first + static_cast<std::int64_t>(b)};
@@ -46,6 +46,8 @@ std::vector<NodeIndex> nodes_of(const System& system, const Body& body, const Bo
       return nodes<mpm::ShapeKind::linear>(system, body, box);
     case mpm::ShapeKind::gimp:
       return nodes<mpm::ShapeKind::gimp>(system, body, box);
+    case mpm::ShapeKind::cpgimp:
+      return nodes<mpm::ShapeKind::cpgimp>(system, body, box);
     case mpm::ShapeKind::bspline2:
       return nodes<mpm::ShapeKind::bspline2>(system, body, box);
   }

@@ -13,6 +13,8 @@ double cost_of(mpm::ShapeKind shape) {
       return 1.0;
     case mpm::ShapeKind::gimp:
       return 2.6;
+    case mpm::ShapeKind::cpgimp:
+      return 4.5;
     case mpm::ShapeKind::bspline2:
       return 1.7;
   }

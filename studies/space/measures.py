@@ -12,7 +12,7 @@ quantities = {
     "early_area": ("crack area at 10 µs", "mm²", 1e6), "crack_area": ("crack area", "mm²", 1e6), "inner_area": ("of it within 1.5 radii of the cylinder", "mm²", 1e6),
     "strength": ("mean strength", "MPa", 1e-6), "localised_volume": ("localised volume", "mm³", 1e9), "localised_particles": ("localised particles", "", 1.0),
     "fracture": ("fracture energy", "J", 1.0), "cylinder_velocity": ("velocity of the cylinder", "m/s", 1.0), "fragments": ("fragments of the plate", "", 1.0),
-    "residual": ("residual", "%", 100.0)}
+    "ringing": ("pressures within cells, of the energy", "%", 100.0), "residual": ("residual", "%", 100.0)}
 drawn = ("first_time", "first_radius", "crack_area", "localised_volume", "fracture", "cylinder_velocity")
 shipped_quantities = {key: quantities[key] for key in ("first_time", "first_radius", "first_height", "crack_area", "localised_volume", "fracture", "residual")}
 
@@ -41,7 +41,8 @@ def of_run(outcome, last):
     return row | {
         "crack_area": plate["crack_area"], "inner_area": area[radius < 1.5 * punch].sum(), "strength": np.average(strength, weights=area) if area.size else None,
         "localised_volume": plate["localised_volume"], "localised_particles": plate["localised"], "fracture": energy["fracture"],
-        "cylinder_velocity": cylinder["momentum"][1] / cylinder["mass"], "fragments": plate["fragments"]}
+        "cylinder_velocity": cylinder["momentum"][1] / cylinder["mass"], "fragments": plate["fragments"],
+        "ringing": energy["ringing"] / energy["initial"]}
 
 
 def of_shipped(outcome):

@@ -31,6 +31,13 @@ class Plausible(CommandLineTest):
         die = here / "scenes" / "die.toml"
         self.assert_warns("boundary 'die' travels through 4 cells", die, space__shape_functions='"linear"', boundary__1__velocity__1=-40.0)
 
+    def test_domains_of_one_particle_a_cell(self):
+        told = r"key 'space\.shape_functions': body 'comes' has one particle a cell"
+        counts = {f"body__{n}__particles_per_cell": 1 for n in range(2)}
+        self.assert_warns(told, space__shape_functions='"cpgimp"', **counts)
+        for values in (dict(space__shape_functions='"gimp"', **counts), dict(space__shape_functions='"cpgimp"', **dict.fromkeys(counts, 4))):
+            self.assertFalse(re.search(told, "\n".join(self.warnings(**values))), values)
+
     def test_wave_speed(self):
         self.assert_warns(r"--set 1: key 'material\.m\.young': waves travel at 0\.17\d+ m/s .*; "
                           r"young = 72: did you mean 72e9\?", material__m__young=72)

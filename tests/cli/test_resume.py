@@ -141,6 +141,15 @@ class Resume(CommandLineTest):
                 self.run_scene(out.name, *settings, "--resume")
                 self.assert_same_results(out, whole)
 
+    def test_stretched_domains_and_cracks_that_share_cells(self):
+        shared = overrides(output__checkpoint_every=4e-6, time__end=6e-6, space__shape_functions='"cpgimp"', body__0__particles_per_cell=4, body__1__particles_per_cell=4)
+        for method in ("explicit", "arkode-explicit", "arkode-implicit"):
+            with self.subTest(method):
+                settings = (*shared, *overrides(integrator__method=f'"{method}"'))
+                whole, out = (self.run_scene(f"{name} {method}", *settings, "--threads", 1) for name in ("whole", "out"))
+                self.run_scene(out.name, *settings, "--resume", "--threads", 2)
+                self.assert_same_results(out, whole)
+
     def test_without_fields(self):
         whole, out = (self.run_scene(name, "--no-fields", *checkpoints) for name in ("whole", "out"))
         self.run_scene("out", "--no-fields", *checkpoints, "--resume")

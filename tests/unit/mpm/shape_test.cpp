@@ -19,6 +19,7 @@ void for_each_shape(F&& f) {
   f.template operator()<ShapeKind::linear>(0.5);
   f.template operator()<ShapeKind::bspline2>(0.5);
   for (const double half : halves) f.template operator()<ShapeKind::gimp>(half);
+  for (const double half : {0.02, 0.25, 0.5, 0.7, 1.0}) f.template operator()<ShapeKind::cpgimp>(half);
 }
 
 /// Positions to try: on nodes, cell centres and particle-edge alignments, one rounding beside each, and
@@ -54,6 +55,35 @@ TEST_CASE("GIMP of particles as large as a cell is the quadratic B-spline, slope
     for (std::size_t k = 0; k < 3; ++k) {
       REQUIRE(std::abs(gimp.value[k] - spline.value[k]) <= rounding);
       REQUIRE(std::abs(gimp.slope[k] - spline.slope[k]) <= rounding);
+    }
+  }
+}
+
+TEST_CASE("GIMP of domains that stretch is GIMP where they have not, and ends within a tile",
+          "[mpm][shape]") {
+  for (const double x : positions()) {
+    for (const double half : halves) {
+      const auto fixed = Shape1<ShapeKind::gimp>::at(x, half);
+      const auto stretched = Shape1<ShapeKind::cpgimp>::at(x, half);
+      REQUIRE(stretched.first == fixed.first);
+      for (std::size_t k = 0; k < 3; ++k) {
+        REQUIRE(stretched.value[k] == fixed.value[k]);
+        REQUIRE(stretched.slope[k] == fixed.slope[k]);
+      }
+      REQUIRE(std::abs(stretched.value[3]) < 1e-15 * std::max(10.0, std::abs(x)) / half);
+    }
+    // The nodes that a particle of cell c can touch end at c + 2, whatever its domain.
+    for (const double half : {0.02, 0.3, 0.5, 0.7, 1.0}) {
+      const auto w = Shape1<ShapeKind::cpgimp>::at(x, half),
+                 within = Shape1<ShapeKind::cpgimp>::at(x, half, cell_of(x) - 1);
+      const auto at = [](const Weights1<4>& of, std::int32_t node) {
+        const std::int32_t k = node - of.first;
+        return k < 0 || k > 3 ? 0.0 : of.value[static_cast<std::size_t>(k)];
+      };
+      REQUIRE(within.first + 3 <= cell_of(x) + 2);
+      REQUIRE(within.first >= cell_of(x) - 1);
+      for (std::int32_t node = cell_of(x) - 2; node <= cell_of(x) + 4; ++node)
+        REQUIRE(std::abs(at(w, node) - at(within, node)) < 1e-15 * std::max(10.0, std::abs(x)) / half);
     }
   }
 }

@@ -44,7 +44,7 @@ TEST_CASE("What differs within a cell: uniform pressures keep, sums keep, energy
   MpmRun run(parse_scene(ball("gimp", 4, "none"), "ball.toml"));
   const Body& body = run.system.bodies[0];
   const std::size_t size = body.particles.size;
-  const mpm::CellAverage average(body, run.system.cell, std::vector<char>(size, 1));
+  const mpm::CellAverage average(*run.system.team, body, run.system.cell, std::vector<char>(size, 1));
   for (const double d : average.differences(std::vector<double>(size, 3.0), 4)) CHECK(std::abs(d) < 1e-13);
   Random random(1);
   for (int n = 0; n < 20; ++n) {
@@ -67,7 +67,7 @@ TEST_CASE("Particles that take no part neither give nor get", "[mpm][filter]") {
   std::vector<char> counted(body.particles.size, 1);
   std::vector<double> q(body.particles.size, 1.0);
   for (std::size_t i = 0; i < q.size(); i += 3) counted[i] = 0, q[i] = 100.0;
-  for (const double d : mpm::CellAverage(body, run.system.cell, counted).differences(q, 2))
+  for (const double d : mpm::CellAverage(*run.system.team, body, run.system.cell, counted).differences(q, 2))
     CHECK(std::abs(d) < 1e-13);
 }
 
