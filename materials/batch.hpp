@@ -162,11 +162,11 @@ class Batch final : public Material {
   }
 
   static std::vector<std::size_t> stress_columns_of(const Law& law) {
-    if constexpr (runs) {
+    if constexpr (requires { law.stress_columns(); }) {
+      return law.stress_columns();
+    } else if constexpr (runs) {
       return Law::elastic_column < 0 ? std::vector<std::size_t>{}
                                      : std::vector{static_cast<std::size_t>(Law::elastic_column)};
-    } else if constexpr (requires { law.stress_columns(); }) {
-      return law.stress_columns();
     } else {
       std::vector<std::size_t> all(components_of(law.variables()).size());
       for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
@@ -222,6 +222,9 @@ class Batch final : public Material {
                                         double duration) const;
   template <bool small>
   double take_elastic_turning(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
+  void stress_of_each(const TensorPointers<const double>& strain,
+                      const VariableColumns<const double*>& variables, std::size_t size,
+                      const TensorPointers<double>& stress) const;
   void store_elastic_stress(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   double take_elastic(const ParticleColumns& p, std::size_t begin, std::size_t end) const;
   /// What increments of one point need, made once for many.

@@ -136,6 +136,7 @@ void Batch<Law>::stress(const TensorPointers<const double>& strain,
                         const VariableColumns<const double*>& variables, std::size_t size,
                         const TensorPointers<double>& stress) const {
   if constexpr (runs) {
+    if (stress_columns().size() > 1) return stress_of_each(strain, variables, size, stress);
     const auto [e0, e1, e2, e3] = strain;
     const auto [s0, s1, s2, s3] = stress;
     const double* variable = e0;  // any, where none is read
@@ -146,12 +147,20 @@ void Batch<Law>::stress(const TensorPointers<const double>& strain,
       s0[k] = s.rr, s1[k] = s.zz, s2[k] = s.tt, s3[k] = s.rz;
     }
   } else {
-    PointState point;
-    for (std::size_t k = 0; k < size; ++k) {
-      point.elastic_strain = tensor_at(strain, k);
-      for (const std::size_t c : stress_columns()) point.variables[c] = variables[c][k];
-      put_tensor(stress, k, law_.stress(load(point)));
-    }
+    stress_of_each(strain, variables, size, stress);
+  }
+}
+
+/// The same, where the stress depends on more than one variable.
+template <class Law>
+void Batch<Law>::stress_of_each(const TensorPointers<const double>& strain,
+                                const VariableColumns<const double*>& variables, std::size_t size,
+                                const TensorPointers<double>& stress) const {
+  PointState point;
+  for (std::size_t k = 0; k < size; ++k) {
+    point.elastic_strain = tensor_at(strain, k);
+    for (const std::size_t c : stress_columns()) point.variables[c] = variables[c][k];
+    put_tensor(stress, k, law_.stress(load(point)));
   }
 }
 

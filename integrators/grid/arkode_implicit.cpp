@@ -10,6 +10,8 @@
 #include "mpm/computation_error.hpp"
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
+#include "mpm/transfer.hpp"
+#include "mpm/velocity_filter.hpp"
 
 namespace vitrum {
 
@@ -124,6 +126,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
       system.record.filtered = 0.0;
       if (phase_over) {
         state_.remap_loss += grid_->end_phase(y), ++state_.phases;
+        if (system.flip != 1.0) mpm::refresh_grid_for_positions(system), mpm::filter_velocities(system);
         mpm::filter_pressures(system, began, system.time);
       }
       goes_on = observer.step_done(system, length);

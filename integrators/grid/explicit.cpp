@@ -17,6 +17,7 @@
 #include "mpm/reactions.hpp"
 #include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
+#include "mpm/velocity_filter.hpp"
 
 namespace vitrum {
 
@@ -32,8 +33,9 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   system.grid.move_boundaries(system.time);
   mpm::find_coasting(system);
   mpm::refresh_grid_and_wake(system);
-  system.record.external_work = mpm::carry_held(system).work;
   system.record.filtered = 0.0;
+  mpm::filter_velocities(system);
+  system.record.external_work = mpm::carry_held(system).work;
   mpm::filter_pressures(system, system.time, system.time + duration);
   mpm::find_centroids(system);
   if (system.contact) system.contact->begin_step(system, duration);

@@ -17,6 +17,7 @@
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/stress.hpp"
+#include "mpm/velocity_filter.hpp"
 #include "tensor/symmetric.hpp"
 
 namespace vitrum {
@@ -320,13 +321,21 @@ bool ParticleSystem::commit(double t, double* y) {
     system_.contact->evaluate(system_, bodies);
     system_.contact->commit(system_, bodies, changes_.data() + (works_ ? 1 : 0));
   }
-  const bool carried = carry();
   system_.record.filtered = 0.0;
+  const bool smoothed = filter_velocities();
+  const bool carried = carry();
   const bool filtered = mpm::filter_pressures(system_, from, t);
   system_.record.kinetic = kinetic_energy();
   const bool parted = system_.contact && (system_.step_index + 1) % mpm::Contact::steps_between_looks == 0 &&
                       system_.contact->part(system_);
-  return replaced || carried || filtered || parted;
+  return replaced || smoothed || carried || filtered || parted;
+}
+
+/// Whether velocities have changed.
+bool ParticleSystem::filter_velocities() {
+  if (system_.flip == 1.0) return false;
+  mpm::refresh_grid_for_positions(system_);
+  return mpm::filter_velocities(system_);
 }
 
 /// Particles that have come to move with held nodes take their velocity; whether some have.

@@ -93,6 +93,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   void mirror_rates(const double* y, double* rates) const;
   double kinetic_energy();
   bool reflect(double* y);
+  bool filter_velocities();
   bool carry();
 
   System& system_;

@@ -37,6 +37,14 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   }
   void judge(CompositeState& s, PointReport& report) const;
   void advance(CompositeState& s, const SymmetricTensor& strain, double duration, PointReport& report) const;
+  /// The crack density, and where it gives the moduli before localisation only, whether that has been.
+  std::vector<std::size_t> stress_columns() const {
+    std::vector<std::size_t> columns;
+    if (has_damage) columns.push_back(Column::crack_density);
+    if (has_damage && has_decohesion && decohesion_.parameters().undamaged)
+      columns.push_back(Column::effective_length);
+    return columns;
+  }
   std::optional<std::size_t> damage_column() const {
     return has_damage ? std::optional<std::size_t>(Column::crack_density) : std::nullopt;
   }
@@ -80,6 +88,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   using Models::separate;
   using Models::snap_back;
   using Models::start_decohesion;
+  using Models::surface_acts;
   using Models::traction;
   using Models::von_mises_;
   using Models::yield_function;

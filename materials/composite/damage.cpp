@@ -18,7 +18,8 @@ constexpr std::array<std::array<double, 2>, 2> two_points{
 
 DamageLaw::DamageLaw(const DamageParameters& parameters, const ElasticParameters& elastic)
     : parameters_(parameters), undamaged_(elastic_moduli(elastic)), poisson_(elastic.poisson) {
-  const double wave_speed = std::sqrt(elastic.young / elastic.density);  // c of eq. 7: uniaxial stress
+  const double stiffness = parameters.pressure_wave ? undamaged_.p_wave() : elastic.young;
+  const double wave_speed = std::sqrt(stiffness / elastic.density);  // c of eq. 7
   const double ratio = parameters.toughness / (elastic.density * wave_speed);
   coefficient_at_unit_rate_ = 2.5 * parameters.k * ratio * ratio;
   if (parameters.volumetric) trace_per_strain_ = 1.0;

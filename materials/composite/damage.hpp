@@ -27,6 +27,7 @@ struct DamageParameters {
   DamageRate history = DamageRate::running_maximum;  ///< of the first three; where none of the times is set
   double averaging_time = 0.0;                       ///< s; > 0: the rate is averaged over it
   bool volumetric = false;                           ///< eps_v is tr(e) instead of the mean strain tr(e)/3
+  bool pressure_wave = false;                        ///< c is the speed of pressure waves instead of a bar's
 
   DamageRate rate() const {
     return fixed_rate > 0.0 ? DamageRate::fixed : averaging_time > 0.0 ? DamageRate::averaged : history;
@@ -48,6 +49,12 @@ class DamageLaw {
     const double nu_bar = poisson_ * (1.0 - x);
     const double common = undamaged_.bulk * (1.0 - x) * weight(x);
     return {common / (1.0 - 2.0 * nu_bar), 1.5 * common / (1.0 + nu_bar)};
+  }
+
+  /// lambda / (2 G) of the damaged moduli, nu_bar / (1 - 2 nu_bar).
+  double lateral_ratio(double x) const {
+    const double nu_bar = poisson_ * (1.0 - x);
+    return nu_bar / (1.0 - 2.0 * nu_bar);
   }
 
   /// d(moduli)/dx.

@@ -29,7 +29,7 @@ bool CompositeModels<D, Y, C>::damage_at_once(CompositeState& s, double fraction
   report.dissipation.damage += stored - stored_energy(s);
   if constexpr (C) {
     if (localises) {
-      start_decohesion(true, true, s);
+      start_decohesion(true, true, s, report.dissipation);
       report.record(EventKind::localisation, fraction, stress(s));
     }
   }

@@ -13,8 +13,8 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
   // strength (+ viscous overstress).
   if (parameters_.viscosity > 0.0 && !(duration > 0.0))
     return {lambda0, 0.0, 0.0, false};  // a jump leaves no time to creep
-  const double u0 = parameters_.opening;
-  const double n2 = std::max(trial.normal, 0.0) * std::max(trial.normal, 0.0);
+  const double u0 = opening(onset_strength), driving_normal = driving(trial.normal);
+  const double n2 = driving_normal * driving_normal;
   const double t2 = shear_weight_ * trial.tangential * trial.tangential;
   const double stiffness_n = trial.normal_stiffness * u0 / length;
   const double stiffness_t = trial.tangential_stiffness * shear_weight_ * u0 / length;
@@ -57,7 +57,7 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
 
   // m = u0 (tau_n, tau_t / C_m^2) / N at the end of the step (eq. 16).
   const double s = carried(step);
-  const double tau_n = std::sqrt(n2) * s / (s + stiffness_n * step);
+  const double tau_n = driving_normal * s / (s + stiffness_n * step);
   const double tau_t = trial.tangential * s / (s + stiffness_t * step);
   const double N = std::sqrt(tau_n * tau_n + shear_weight_ * tau_t * tau_t);
   if (!(N > 0.0)) return {1.0, 0.0, 0.0, true};
@@ -67,12 +67,12 @@ DecohesionLaw::Advance DecohesionLaw::advance(double lambda0, double onset_stren
 double DecohesionLaw::hardening_denominator(double lambda, double onset_strength,
                                             const PlaneTraction& traction, double length) const {
   const double N = effective_traction(traction.normal, traction.tangential);
-  const double mn = N > 0.0 ? std::max(traction.normal, 0.0) / N : 1.0;
+  const double mn = N > 0.0 ? driving(traction.normal) / N : 1.0;
   const double mt = N > 0.0 ? shear_weight_ * traction.tangential / N : 0.0;
   const double q = parameters_.q;
   const double softening = q == 1.0 ? 1.0 : q * std::pow(lambda, q - 1.0);
   return (mn * mn * traction.normal_stiffness + mt * mt * traction.tangential_stiffness) / length -
-         onset_strength * softening / parameters_.opening;
+         onset_strength * softening / opening(onset_strength);
 }
 
 }  // namespace vitrum

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "materials/elasticity.hpp"
@@ -9,6 +10,13 @@
 
 namespace vitrum {
 
+/// What bears a point whose plane has separated.
+enum class Separated : unsigned char {
+  faces,     ///< two faces: free of traction while open, elastic under pressure once closed
+  pressure,  ///< rubble: pressure, once the void is closed, and nothing else
+  nothing
+};
+
 /// Scene table [material.NAME.decohesion]: from localisation to separation, eqs. 10-18.
 struct DecohesionParameters {
   double opening = 0.0;            ///< u0, m
@@ -16,6 +24,13 @@ struct DecohesionParameters {
   double mode_ratio = 1.0;         ///< C_m = tau_tp / tau_np
   double viscosity = 0.0;          ///< eta, s; > 0: eta lambda' = <f>/U0
   bool search_all_planes = false;  ///< plane = "all": a hoop normal may win
+  // Readings of what the paper leaves open.
+  std::optional<double> tau_bar_0 = {};  ///< Pa, of U0 = u0 tau_bar_0; absent: tau_np of the onset
+  bool undamaged = false;                ///< E of eq. 10 is that of the virgin material
+  bool pressure_counts = false;          ///< eqs. 15-18 as printed: normal pressure drives the plane, too
+  bool partial_compression = true;       ///< localises although a principal stress is compressive
+  bool flow_behind_plane = true;         ///< a localised point may still flow
+  Separated separated = Separated::faces;
 
   static schema::Fields<DecohesionParameters> rows();
 };
@@ -54,22 +69,27 @@ struct PlaneTraction {
   double normal_stiffness, tangential_stiffness;  ///< diagonal of Q_e: lambda + 2G and G, Pa
 };
 
-/// The effective traction N on a plane (Pa) and its gradient m/u0 = dN/d(traction) (eq. 16).
+/// The effective traction N on a plane (Pa) and its gradient dN/d(traction), m of eq. 16 over its length in mode I.
 struct PlaneDrive {
   double traction, normal, tangential;
 };
 
-/// The softening law of eqs. 13-18 on one plane. Only tensile normal traction drives decohesion.
+/// The softening law of eqs. 13-18 on one plane. Unless pressure counts, only tensile normal traction drives
+/// decohesion.
 class DecohesionLaw {
  public:
   DecohesionLaw() = default;
   explicit DecohesionLaw(const DecohesionParameters& parameters)
       : parameters_(parameters), shear_weight_(1.0 / (parameters.mode_ratio * parameters.mode_ratio)) {}
 
+  /// Of the normal traction, what drives decohesion, Pa.
+  double driving(double normal) const {
+    return parameters_.pressure_counts ? normal : std::max(normal, 0.0);
+  }
   /// N = sqrt(<tau_n>^2 + (tau_t/C_m)^2), Pa: the effective traction over u0 (eq. 15 with tau_bar_0 =
   /// tau_np).
   double effective_traction(double normal, double tangential) const {
-    const double n = std::max(normal, 0.0);
+    const double n = driving(normal);
     return std::sqrt(n * n + shear_weight_ * tangential * tangential);
   }
   /// The same with its gradient. pulled: the normal traction counts (whatever its sign: the branch is chosen
@@ -93,7 +113,7 @@ class DecohesionLaw {
   /// the mode.
   double surface_energy(double lambda0, double lambda1, double onset_strength) const {
     const double q1 = parameters_.q + 1.0;
-    return parameters_.opening * onset_strength *
+    return opening(onset_strength) * onset_strength *
            (lambda1 - lambda0 - (std::pow(lambda1, q1) - std::pow(lambda0, q1)) / q1);
   }
 
@@ -113,8 +133,16 @@ class DecohesionLaw {
                                double length) const;
 
   const DecohesionParameters& parameters() const { return parameters_; }
+  /// Whether the material behind the plane may flow.
+  bool flows_behind(bool is_separated) const {
+    return parameters_.flow_behind_plane && !(is_separated && parameters_.separated != Separated::faces);
+  }
   double viscosity() const { return parameters_.viscosity; }
-  double reference_opening() const { return parameters_.opening; }
+  /// Opening of a plane in pure mode I at lambda = 1, m: U0 / tau_np, which is u0 unless tau_bar_0 is given.
+  double opening(double onset_strength) const {
+    return parameters_.tau_bar_0 ? parameters_.opening * *parameters_.tau_bar_0 / onset_strength
+                                 : parameters_.opening;
+  }
 
  private:
   double power(double lambda) const {

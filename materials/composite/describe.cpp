@@ -50,6 +50,14 @@ schema::Fields<DecohesionParameters> DecohesionParameters::rows() {
       {"mode_ratio", &P::mode_ratio, "1", positive, "C_m = tau_tp / tau_np, eq. 18", required},
       {"viscosity", &P::viscosity, "s", not_negative,
        "viscosity eta of eta lambda' = <f>/U0; 0: a snap-back releases at once"},
+      {"tau_bar_0", &P::tau_bar_0, "Pa", positive,
+       "reference traction of U0 = u0 tau_bar_0; absent: tau_np of the onset, eq. 18"},
+      {"pressure_counts", &P::pressure_counts,
+       "eqs. 15 to 18 as printed, with the square of tau_n whatever its sign; false: only tension drives "
+       "decohesion"},
+      {"partial_compression", &P::partial_compression,
+       "damage localises although a principal stress is compressive; false: only where none is"},
+      {"flow_behind_plane", &P::flow_behind_plane, "a localised point may still flow; false: elastic"},
   };
 }
 

@@ -30,7 +30,9 @@ class CompositeEvolution final : public CompositeModes,
   void project(const CompositeMode& mode, CompositeState& state, const StrainPath& path) const override;
   Moduli secant_moduli(const CompositeState& s) const override { return Models::secant_moduli(s); }
   Moduli virgin_moduli() const override { return elastic_; }
-  double reference_opening() const override { return has_decohesion ? decohesion_.reference_opening() : 0.0; }
+  double reference_opening(const CompositeState& s) const override {
+    return has_decohesion ? decohesion_.opening(s.cohesive_strength) : 0.0;
+  }
 
  private:
   using Models::damage_;

@@ -13,13 +13,13 @@ void CompositeModels<D, Y, C>::flow_behind_crack(CompositeState& s, double outsi
                                                  Dissipation& dissipation) const {
   const auto excess = [&](const CompositeState& c) {  // > 0 outside the yield surface, Pa
     const bool tension = trace(c.elastic_strain) > 0.0;
-    return surface_acts(tension) ? yield_function(c, secant(tension, c.crack_density)) : 0.0;
+    return surface_acts(tension, c) ? yield_function(c, secant(tension, c)) : 0.0;
   };
   const double admitted = tolerance::on_surface * elastic_.shear * norm(deviator(s.elastic_strain));
   const double violated = excess(s);
   if (!(violated > admitted)) return;
   if (!is_separated(s)) {
-    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s.crack_density), outside_before);
+    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s), outside_before);
     return;
   }
 
@@ -62,7 +62,7 @@ bool CompositeModels<D, Y, C>::fell_behind_crack(const CompositeState& s, double
 /// most half of the deviator, which is to keep its direction. Returns the plastic strain.
 template <bool D, Yielding Y, bool C>
 SymmetricTensor CompositeModels<D, Y, C>::flow_along_deviator(CompositeState& s, double excess) const {
-  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s);
   const SymmetricTensor direction = flow_direction(s);  // per unit of |d eps_p|
   const double resistance = contract(yield_gradient(s, moduli), direction);
   if (!(resistance > 0.0)) return {};

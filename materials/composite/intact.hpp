@@ -40,7 +40,7 @@ double CompositeClosedForm<D, Y, C>::advance_intact(CompositeState& s, const Sym
     done = end >= 1.0 ? 1.0 : done + end * (1.0 - done);
     if constexpr (C) {
       if (localises) {
-        start_decohesion(leg.tension, s.crack_density > leg.start.crack_density, s);
+        start_decohesion(leg.tension, s.crack_density > leg.start.crack_density, s, report.dissipation);
         report.record(EventKind::localisation, done, stress(s));
         return done;
       }
@@ -56,7 +56,7 @@ double CompositeClosedForm<D, Y, C>::advance_intact(CompositeState& s, const Sym
 template <bool D, Yielding Y, bool C>
 void CompositeClosedForm<D, Y, C>::release_excess_shear(CompositeState& s, double done,
                                                         PointReport& report) const {
-  const Moduli moduli = secant(false, s.crack_density);
+  const Moduli moduli = secant(false, s);
   const double excess = yield_function(s, moduli);
   if (!(excess > tolerance::on_surface * moduli.shear * norm(deviator(s.elastic_strain)))) return;
   report.dissipation.plastic += flow(s, moduli, excess);
@@ -75,10 +75,10 @@ auto CompositeClosedForm<D, Y, C>::state_along(const Leg& leg, double fraction) 
       s.crack_density = std::max(s.crack_density,
                                  damage_.target(damage_.strain_of(trace(s.elastic_strain)), leg.coefficient));
   if constexpr (Y == Yielding::von_mises) {
-    f.plastic_dissipation = flow(s, secant(leg.tension, s.crack_density), 0.0);
+    f.plastic_dissipation = flow(s, secant(leg.tension, s), 0.0);
   } else if constexpr (Y == Yielding::drucker_prager) {
     if (!leg.tension) {
-      const Moduli moduli = secant(false, s.crack_density);
+      const Moduli moduli = secant(false, s);
       if (yield_function(s, moduli) > 0.0)
         f.plastic_dissipation = flow(s, moduli, yield_function(leg.start, moduli));
     }
@@ -111,7 +111,7 @@ bool CompositeClosedForm<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
   if constexpr (C && Y == Yielding::von_mises) {
     const double modulus = von_mises_.modulus(s.plastic_strain);
     if (s.plastic_strain > leg.start.plastic_strain && modulus < 0.0)
-      return flow_localisation(s, secant(leg.tension, s.crack_density), modulus) <= 0.0;
+      return flow_localisation(s, secant(leg.tension, s), modulus) <= 0.0;
   }
   return false;
 }
@@ -143,7 +143,7 @@ bool CompositeClosedForm<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
     const double softest = std::max(from.plastic_strain, von_mises_.peak_strain()),
                  modulus = von_mises_.modulus(softest);
     if (to.plastic_strain > leg.start.plastic_strain && to.plastic_strain >= softest && modulus < 0.0) {
-      const Moduli m = secant(leg.tension, to.crack_density);
+      const Moduli m = secant(leg.tension, to);
       return flow_localisation(from, m, modulus) <= 0.0 || flow_localisation(to, m, modulus) <= 0.0;
     }
   }
@@ -238,7 +238,7 @@ void CompositeClosedForm<D, Y, C>::record_events([[maybe_unused]] const Leg& leg
       report.record(EventKind::damage, of_increment(0.0), stress(leg.start));
   if constexpr (Y != Yielding::none) {
     if (end.plastic_strain <= leg.start.plastic_strain) return;
-    const Moduli moduli = secant(leg.tension, leg.start.crack_density);
+    const Moduli moduli = secant(leg.tension, leg.start);
     // A start clearly inside the surface is an entry into plastic flow; on the surface, flow merely goes on.
     const bool inside = yield_function(leg.start, moduli) <
                         -tolerance::on_surface * moduli.shear * norm(deviator(end.elastic_strain));

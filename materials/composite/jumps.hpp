@@ -21,7 +21,7 @@ void CompositeEvolution<D, Y, C>::fall_at_constant_strain(CompositeMode& mode, C
   const double stored = stored_energy(s);
   if (!C || !mode.separated()) {
     s.elastic_strain += tolerance::rounding * deviator(s.elastic_strain);
-    flow(s, secant(mode.tension, s.crack_density), 0.0);
+    flow(s, secant(mode.tension, s), 0.0);
     report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
     resume_after_jump(mode, s, fraction, report);
     return;
@@ -37,7 +37,7 @@ void CompositeEvolution<D, Y, C>::fall_at_constant_strain(CompositeMode& mode, C
       s.plastic_strain = i + 1 == steps ? mode.branch_end : s.plastic_strain + step;
       free_faces(s);
       const bool tension = trace(s.elastic_strain) > 0.0;
-      if (i > 0 && yield_function(s, secant(tension, s.crack_density)) < 0.0) {
+      if (i > 0 && yield_function(s, secant(tension, s)) < 0.0) {
         s = before;
         break;
       }
@@ -84,7 +84,7 @@ void CompositeEvolution<D, Y, C>::fall_with_plane(CompositeMode& mode, Composite
                                                   PointReport& report) const {
   if constexpr (Y == Yielding::von_mises && C) {
     constexpr int branches = 3, steps = 64;
-    const Moduli m = secant(mode.tension, s.crack_density);
+    const Moduli m = secant(mode.tension, s);
     const double stored = stored_energy(s), decohesion = s.decohesion;
     bool together = true, inside = false;
     for (int branch = 0; branch < branches && together && !inside; ++branch) {
@@ -129,7 +129,7 @@ bool CompositeEvolution<D, Y, C>::localises(const CompositeMode& mode, const Com
     if (mode.damaging && s.crack_density > 0.0 && damage_localisation(s) <= 0.0) return true;
   if constexpr (Y == Yielding::von_mises && C)
     if (mode.flowing && mode.hardening_modulus < 0.0 &&
-        flow_localisation(s, secant(mode.tension, s.crack_density), mode.hardening_modulus) <= 0.0)
+        flow_localisation(s, secant(mode.tension, s), mode.hardening_modulus) <= 0.0)
       return true;
   return false;
 }
@@ -138,7 +138,7 @@ template <bool D, Yielding Y, bool C>
 void CompositeEvolution<D, Y, C>::localise(CompositeMode& mode, CompositeState& s, double fraction,
                                            PointReport& report) const {
   if constexpr (C) {
-    start_decohesion(mode.tension, mode.damaging, s);
+    start_decohesion(mode.tension, mode.damaging, s, report.dissipation);
     mode.damaging = false;
     mode.plane = CompositeMode::Plane::held;
     report.record(EventKind::localisation, fraction, stress(s));
@@ -150,7 +150,7 @@ template <bool D, Yielding Y, bool C>
 void CompositeEvolution<D, Y, C>::release_plane(CompositeMode& mode, CompositeState& s, double fraction,
                                                 PointReport& report) const {
   if constexpr (C) {
-    snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
+    snap_back(s, secant(mode.tension, s), report.dissipation);
     mode.plane = CompositeMode::Plane::held;
     if (is_separated(s)) enter_separated(mode, s, fraction, report);
     resume_after_jump(mode, s, fraction, report);
@@ -161,7 +161,7 @@ template <bool D, Yielding Y, bool C>
 void CompositeEvolution<D, Y, C>::separate_plane(CompositeMode& mode, CompositeState& s, double fraction,
                                                  PointReport& report) const {
   if constexpr (C) {
-    separate(s, secant(mode.tension, s.crack_density), report.dissipation);
+    separate(s, secant(mode.tension, s), report.dissipation);
     enter_separated(mode, s, fraction, report);
     resume_after_jump(mode, s, fraction, report);
   }
@@ -171,7 +171,7 @@ template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::shear_carries_strength(const CompositeMode& mode,
                                                          const CompositeState& s) const {
   const PlaneTraction t =
-      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s.crack_density));
+      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
   return mode.viscous || decohesion_.effective_traction(0.0, t.tangential) >
                              0.5 * decohesion_.strength(s.decohesion, s.cohesive_strength);
 }

@@ -48,7 +48,7 @@ void CompositeClosedForm<D, Y, C>::advance_localised(CompositeState& s, const Sy
 /// strength that it has under pressure.
 template <bool D, Yielding Y, bool C>
 double CompositeClosedForm<D, Y, C>::outside_under_pressure(const CompositeState& s) const {
-  return has_yield ? std::max(0.0, yield_function(s, secant(false, s.crack_density))) : 0.0;
+  return has_yield && surface_acts(false, s) ? std::max(0.0, yield_function(s, secant(false, s))) : 0.0;
 }
 
 /// The jump of a plane that lost its equilibrium, and the falls that follow from it at the same instant.
@@ -56,7 +56,7 @@ double CompositeClosedForm<D, Y, C>::outside_under_pressure(const CompositeState
 template <bool D, Yielding Y, bool C>
 void CompositeClosedForm<D, Y, C>::release_plane_at_once(CompositeState& s, Jump jump, bool flows,
                                                          double fraction, PointReport& report) const {
-  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+  const Moduli moduli = secant(trace(s.elastic_strain) > 0.0, s);
   jump == Jump::snap_back ? snap_back(s, moduli, report.dissipation)
                           : separate(s, moduli, report.dissipation);
   CompositeMode mode = localised_mode(s);
@@ -80,7 +80,7 @@ double CompositeClosedForm<D, Y, C>::advance_cohesive(CompositeState& s, const S
     end = std::clamp(-start_trace / change, 0.0, 1.0);
     if (end < tolerance::rounding) tension = !tension, end = 1.0;
   }
-  const Moduli moduli = secant(tension, s.crack_density);
+  const Moduli moduli = secant(tension, s);
   const DecohesionPlane plane{s.normal};
   const auto traction_at = [&](double f) { return traction(plane, s.elastic_strain + f * strain, moduli); };
   const auto effective = [&](const PlaneTraction& t) {
@@ -110,7 +110,7 @@ double CompositeClosedForm<D, Y, C>::advance_cohesive(CompositeState& s, const S
       decohesion_.hardening_denominator(s.decohesion, s.cohesive_strength, start, s.effective_length);
   const bool viscous = decohesion_.viscosity() > 0.0;
   const double wanted = effective(traction_at(end)) - strength;
-  const double estimate = wanted / (decohesion_.reference_opening() * std::max(denominator, 1e-300));
+  const double estimate = wanted / (decohesion_.opening(s.cohesive_strength) * std::max(denominator, 1e-300));
   const double step =
       denominator > 0.0 && !at_once ? end / std::clamp(std::ceil(estimate / 0.1), 1.0, 64.0) : end;
   const auto advanced = [&](double f) {
@@ -121,7 +121,7 @@ double CompositeClosedForm<D, Y, C>::advance_cohesive(CompositeState& s, const S
     const double growth = next.decohesion - s.decohesion;
     double surface = decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength);
     if (viscous && f * duration > 0.0)  // the overstress tau_np eta lambda' works on the opening as well
-      surface += decohesion_.reference_opening() * s.cohesive_strength * decohesion_.viscosity() * growth *
+      surface += decohesion_.opening(s.cohesive_strength) * s.cohesive_strength * decohesion_.viscosity() * growth *
                  growth / (f * duration);
     dissipation.fracture += surface / s.effective_length;
     s.elastic_strain +=
@@ -164,7 +164,9 @@ double CompositeClosedForm<D, Y, C>::advance_separated(CompositeState& s,
   const PlaneTraction change = traction(plane, strain, secant_moduli(s));
   s.elastic_strain += strain;
   free_faces(s);
-  if (!(gap > 0.0) || s.opening_n > 0.0) return -1.0;
+  const Separated bears = decohesion_.parameters().separated;
+  if (!(gap > 0.0) || s.opening_n > 0.0 || bears == Separated::nothing) return -1.0;
+  if (bears == Separated::pressure) return std::clamp(-gap / (trace(strain) * s.effective_length), 0.0, 1.0);
   // Between traction-free faces the gap shrinks linearly along the path until they meet.
   const double closing = -change.normal * s.effective_length;
   return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;

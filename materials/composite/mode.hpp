@@ -111,8 +111,8 @@ class CompositeModes : public EventDriven {
   /// virgin material.
   virtual Moduli secant_moduli(const CompositeState& state) const = 0;
   virtual Moduli virgin_moduli() const = 0;
-  /// u0 of eq. 15, m.
-  virtual double reference_opening() const = 0;
+  /// Opening of the plane of a state in pure mode I at lambda = 1, m.
+  virtual double reference_opening(const CompositeState& state) const = 0;
 };
 
 }  // namespace vitrum

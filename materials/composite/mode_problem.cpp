@@ -51,7 +51,7 @@ ModeProblem::ModeProblem(const CompositeModes& law, const CompositeMode& mode, c
   if (mode.damaging) add(crack_density, crack_density_limit), add(damage, energy);
   if (mode.decohering()) add(decohesion, 1.0);
   if (mode.decohering() || (mode.separated() && mode.flowing)) {
-    const double u0 = law.reference_opening();
+    const double u0 = law.reference_opening(state);
     add(opening_n, u0), add(opening_t, u0);
   }
   if (mode.decohering()) add(fracture, energy);

@@ -43,16 +43,16 @@ class CompositeModels {
   }
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   Moduli secant_moduli(const CompositeState& s) const {
-    return secant(trace(s.elastic_strain) > 0.0, s.crack_density);
+    return secant(trace(s.elastic_strain) > 0.0, s);
   }
   double stored_energy(const CompositeState& s) const { return secant_moduli(s).energy(s.elastic_strain); }
   SymmetricTensor stress(const CompositeState& s) const { return secant_moduli(s).stress(s.elastic_strain); }
 
  protected:
-  Moduli secant(bool tension, double crack_density) const {
+  Moduli secant(bool tension, const CompositeState& s) const {
     if constexpr (has_damage) {
-      if (crack_density <= 0.0) return elastic_;
-      Moduli m = damage_.moduli(crack_density / crack_density_limit);
+      if (s.crack_density <= 0.0 || (is_localised(s) && decohesion_.parameters().undamaged)) return elastic_;
+      Moduli m = damage_.moduli(s.crack_density / crack_density_limit);
       if (!tension) m.bulk = elastic_.bulk;  // closed cracks carry pressure
       return m;
     } else {
@@ -77,7 +77,7 @@ class CompositeModels {
   bool damage_at_once(CompositeState& s, double fraction, PointReport& report) const;
 
   // yield_surface.hpp
-  static constexpr bool surface_acts(bool tension);
+  bool surface_acts(bool tension, const CompositeState& s) const;
   double yield_function(const CompositeState& s, const Moduli& moduli) const;
   SymmetricTensor yield_gradient(const CompositeState& s, const Moduli& moduli) const;
   SymmetricTensor flow_direction(const CompositeState& s) const;
@@ -98,7 +98,8 @@ class CompositeModels {
   double largest_normal_strain(const SymmetricTensor& strain) const;
   double damage_localisation(const CompositeState& s) const;
   double flow_localisation(const CompositeState& s, const Moduli& moduli, double modulus) const;
-  void start_decohesion(bool tension, bool damage_grows, CompositeState& s) const;
+  double compression(const CompositeState& s) const;
+  void start_decohesion(bool tension, bool damage_grows, CompositeState& s, Dissipation& dissipation) const;
   CompositeMode localised_mode(const CompositeState& s) const;
   PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain,
                          const Moduli& moduli) const {

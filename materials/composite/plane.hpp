@@ -12,12 +12,26 @@ double CompositeModels<D, Y, C>::largest_normal_strain(const SymmetricTensor& e)
   return decohesion_.parameters().search_all_planes ? std::max(in_plane, e.tt) : in_plane;
 }
 
-/// <= 0 where growing damage admits a discontinuity (Phi).
+/// The largest compressive principal stress under tension, over 2 G_bar and the size of the strain; negative where
+/// there is none. (The hoop direction is a principal one. G_bar itself may vanish.)
+template <bool D, Yielding Y, bool C>
+double CompositeModels<D, Y, C>::compression(const CompositeState& s) const {
+  const SymmetricTensor& e = s.elastic_strain;
+  const double in_plane = 0.5 * (e.rr + e.zz) - std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
+  const double lateral = damage_.lateral_ratio(s.crack_density / crack_density_limit);
+  return -(lateral * trace(e) + std::min(in_plane, e.tt)) / norm(e);
+}
+
+/// <= 0 where growing damage admits a discontinuity (Phi), and the scene's reading of the paper a localisation.
 template <bool D, Yielding Y, bool C>
 double CompositeModels<D, Y, C>::damage_localisation(const CompositeState& s) const {
   const SymmetricTensor& e = s.elastic_strain;
   if (!(trace(e) > 0.0)) return 1.0;
-  return damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest_normal_strain(e));
+  const double phi =
+      damage_.bifurcation(s.crack_density / crack_density_limit, trace(e), largest_normal_strain(e));
+  if (decohesion_.parameters().partial_compression) return phi;
+  // A stress that vanishes is no compression, whatever rounding makes of it.
+  return std::max(phi, compression(s) - tolerance::on_surface);
 }
 
 /// <= 0 where softening flow admits a discontinuity (H >= H_cr, eq. 25).
@@ -30,11 +44,14 @@ double CompositeModels<D, Y, C>::flow_localisation(const CompositeState& s, cons
   return 1.0 - plane.severity;
 }
 
-/// Fixes plane, strength (eq. 18) and effective length from the state at localisation.
+/// Fixes plane, strength (eq. 18) and effective length from the state at localisation. Where E of eq. 10 is that
+/// of the virgin material, the stress keeps: what damage had added to the elastic strain stays for good, and so
+/// does the energy that it stored.
 template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::start_decohesion(bool tension, [[maybe_unused]] bool damage_grows,
-                                                CompositeState& s) const {
-  const Moduli moduli = secant(tension, s.crack_density);
+                                                CompositeState& s,
+                                                [[maybe_unused]] Dissipation& dissipation) const {
+  const Moduli moduli = secant(tension, s);
   const bool all = decohesion_.parameters().search_all_planes;
   double best = std::numeric_limits<double>::infinity();
   if constexpr (D) {
@@ -58,6 +75,14 @@ void CompositeModels<D, Y, C>::start_decohesion(bool tension, [[maybe_unused]] b
   const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
   s.cohesive_strength = decohesion_.effective_traction(t.normal, t.tangential);
   s.effective_length = plane.effective_length(cell_);
+  if constexpr (D) {
+    if (decohesion_.parameters().undamaged && s.crack_density > 0.0) {
+      const SymmetricTensor kept = moduli.stress(s.elastic_strain);
+      const double before = moduli.energy(s.elastic_strain);
+      s.elastic_strain = elastic_.strain(kept);
+      dissipation.damage += before - elastic_.energy(s.elastic_strain);
+    }
+  }
 }
 
 /// The mode of a localised point that is at rest.
@@ -79,8 +104,14 @@ SymmetricTensor CompositeModels<D, Y, C>::strain_left_by_faces(const CompositeMo
                                                                const SymmetricTensor& strain, double& gap,
                                                                double& slip) const {
   const DecohesionPlane plane{s.normal};
-  const PlaneTraction t = traction(plane, strain, m);
   const double L = s.effective_length;
+  if (const Separated bears = decohesion_.parameters().separated; bears != Separated::faces) {
+    const bool presses = bears == Separated::pressure && mode.plane == CompositeMode::Plane::closed;
+    gap = bears == Separated::nothing ? L * plane.normal_part(strain) : presses ? 0.0 : L * trace(strain);
+    slip = 2.0 * L * plane.tangential_part(strain);
+    return (presses ? trace(strain) / 3.0 : 0.0) * identity() + 0.0 * strain;  // what is not a number shows
+  }
+  const PlaneTraction t = traction(plane, strain, m);
   gap = mode.plane == CompositeMode::Plane::open && t.normal_stiffness > 0.0
             ? L * t.normal / t.normal_stiffness
             : 0.0;
@@ -93,7 +124,7 @@ template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::is_overloaded(const CompositeMode& mode, const CompositeState& s) const {
   if (mode.viscous || !(mode.plane == CompositeMode::Plane::held || mode.decohering())) return false;
   const PlaneTraction t =
-      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s.crack_density));
+      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
   return decohesion_.effective_traction(t.normal, t.tangential) >
          decohesion_.strength(s.decohesion, s.cohesive_strength) +
              tolerance::on_surface * s.cohesive_strength;
@@ -137,16 +168,25 @@ void CompositeModels<D, Y, C>::snap_back(CompositeState& s, const Moduli& moduli
 }
 
 /// Opens, slides or closes the crack until its faces carry no traction, or only pressure once closed
-/// (frictionless).
+/// (frictionless). Rubble has no faces: its void takes all the strain but what is left for pressure.
 template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::free_faces(CompositeState& s) const {
   const DecohesionPlane plane{s.normal};
   const double length = s.effective_length;
+  if (const Separated bears = decohesion_.parameters().separated; bears != Separated::faces) {
+    const double volumetric = trace(s.elastic_strain) + s.opening_n / length;
+    s.opening_t += 2.0 * length * plane.tangential_part(s.elastic_strain);
+    s.opening_n = bears == Separated::nothing ? s.opening_n + length * plane.normal_part(s.elastic_strain)
+                                              : length * std::max(volumetric, 0.0);
+    const double pressed = bears == Separated::pressure ? std::min(volumetric, 0.0) / 3.0 : 0.0;
+    s.elastic_strain = pressed * identity() + 0.0 * s.elastic_strain;  // what is not a number shows
+    return;
+  }
   bool tension = trace(s.elastic_strain) > 0.0;
   // The traction is a monotone, piecewise linear function of the opening (two bulk moduli): at most one
   // change of side.
   for (int side = 0; side < 2; ++side) {
-    const Moduli moduli = secant(tension, s.crack_density);
+    const Moduli moduli = secant(tension, s);
     const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
     const double opening = t.normal_stiffness > 0.0 ? length * t.normal / t.normal_stiffness : 0.0;
     const double sliding =
@@ -171,6 +211,7 @@ void CompositeModels<D, Y, C>::separate(CompositeState& s, const Moduli& moduli,
       decohesion_.surface_energy(s.decohesion, 1.0, s.cohesive_strength) / s.effective_length;
   const double before = moduli.energy(s.elastic_strain);
   s.decohesion = 1.0;
+  s.opening_n = std::max(s.opening_n, 0.0);  // faces that pressure has crushed touch where they are
   free_faces(s);
   const double excess = std::max(0.0, before - secant_moduli(s).energy(s.elastic_strain) - regular);
   dissipation.fracture += regular + excess;

@@ -10,8 +10,8 @@ void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeSt
                                           const StrainPath&) const {
   if constexpr (C) {
     if (mode.decohering() && !mode.viscous) {
-      const Moduli m = secant(mode.tension, s.crack_density);
-      const double u0 = decohesion_.reference_opening();
+      const Moduli m = secant(mode.tension, s);
+      const double u0 = decohesion_.opening(s.cohesive_strength);
       for (int i = 0; i < 2; ++i) {
         const Softening w = softening(mode, s, m);
         const double resistance = w.stiffness + w.slope;
@@ -31,7 +31,7 @@ void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeSt
       if (mode.separated()) free_faces(s);
     if constexpr (has_yield) {
       if (mode.flowing) {
-        const Moduli m = secant(mode.tension, s.crack_density);
+        const Moduli m = secant(mode.tension, s);
         const SymmetricTensor direction = flow_direction(s);
         SymmetricTensor given = direction;
         double gap = 0.0, slip = 0.0;
@@ -59,7 +59,7 @@ void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeSt
 template <bool D, Yielding Y, bool C>
 void CompositeEvolution<D, Y, C>::step_inside_surface(const CompositeMode& mode, CompositeState& s) const {
   if constexpr (has_yield) {
-    const Moduli m = secant(mode.tension, s.crack_density);
+    const Moduli m = secant(mode.tension, s);
     const SymmetricTensor d = deviator(s.elastic_strain);
     const double slope = contract(yield_gradient(s, m), d);
     if (!(slope > 0.0)) return;

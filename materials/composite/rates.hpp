@@ -13,7 +13,7 @@ auto CompositeEvolution<D, Y, C>::softening(const CompositeMode& mode, const Com
   Softening w;
   const PlaneTraction t = traction(plane, s.elastic_strain, m);
   w.drive = decohesion_.drive(t.normal, t.tangential, mode.pulled);
-  const double u0 = decohesion_.reference_opening();
+  const double u0 = decohesion_.opening(s.cohesive_strength);
   w.jump = plane.jump_strain(u0 * w.drive.normal, u0 * w.drive.tangential, s.effective_length);
   w.stiffness = traction_change(plane, w.drive, m, w.jump);
   w.slope = decohesion_.strength_slope(s.decohesion, s.cohesive_strength);
@@ -25,7 +25,7 @@ template <bool D, Yielding Y, bool C>
 CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, const CompositeState& s,
                                                   const StrainPath& path) const {
   CompositeRates r;
-  const Moduli m = secant(mode.tension, s.crack_density);
+  const Moduli m = secant(mode.tension, s);
   SymmetricTensor strain = path.strain;
   double thinning = 0.0;  // loss of |s| by the loss of stiffness, Pa per unit of the fraction
   if constexpr (D) {
@@ -73,7 +73,7 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
       const Softening w = softening(mode, s, m);
       const DecohesionPlane plane{s.normal};
       jump = w.jump;
-      const double u0_over_length = decohesion_.reference_opening() / s.effective_length;
+      const double u0_over_length = decohesion_.opening(s.cohesive_strength) / s.effective_length;
       if (mode.viscous) {
         opening_rate =
             path.duration * (w.drive.traction - w.strength) / (decohesion_.viscosity() * s.cohesive_strength);
@@ -97,8 +97,8 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
         r.fracture = w.strength * u0_over_length * opening_rate;
       }
       r.decohesion = opening_rate;
-      r.opening_n = decohesion_.reference_opening() * w.drive.normal * opening_rate;
-      r.opening_t = decohesion_.reference_opening() * w.drive.tangential * opening_rate;
+      r.opening_n = decohesion_.opening(s.cohesive_strength) * w.drive.normal * opening_rate;
+      r.opening_t = decohesion_.opening(s.cohesive_strength) * w.drive.tangential * opening_rate;
     }
   }
   if (mode.flowing && !mode.decohering()) {
@@ -125,12 +125,12 @@ OpeningJacobian CompositeEvolution<D, Y, C>::opening_jacobian([[maybe_unused]] c
                                                               [[maybe_unused]] const StrainPath& path) const {
   OpeningJacobian J{};
   if constexpr (C) {
-    const Moduli m = secant(mode.tension, s.crack_density);
+    const Moduli m = secant(mode.tension, s);
     const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
     const PlaneDrive drive = decohesion_.drive(t.normal, t.tangential, mode.pulled);
     const double N = drive.traction;
     if (!(N > 0.0)) return J;
-    const double u0 = decohesion_.reference_opening(), L = s.effective_length;
+    const double u0 = decohesion_.opening(s.cohesive_strength), L = s.effective_length;
     const double per_traction = path.duration / (decohesion_.viscosity() * s.cohesive_strength);
     const double opening_rate = per_traction * (N - decohesion_.strength(s.decohesion, s.cohesive_strength));
     // Openings unload: d tau_i / d w_i = -Q_i / L, and N' = m . tau'.
@@ -156,11 +156,13 @@ template <bool D, Yielding Y, bool C>
 void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const CompositeState& s,
                                          const StrainPath& path, Guards& g) const {
   g.count = 0;
-  const Moduli m = secant(mode.tension, s.crack_density);
+  const Moduli m = secant(mode.tension, s);
   const double size = norm(path.strain), per_size = size > 0.0 ? 1.0 / size : 0.0;
   const double t = trace(s.elastic_strain);
   const bool intact = mode.plane == CompositeMode::Plane::intact;
-  if (!mode.sliding && (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0))))
+  const bool has_faces = !(C && mode.separated() && decohesion_.parameters().separated != Separated::faces);
+  if (!mode.sliding && has_faces &&
+      (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0))))
     g.add(CompositeGuard::mean_strain_sign, (mode.tension ? -t : t) * per_size);
   if constexpr (D) {
     if (mode.damaging) {
@@ -185,7 +187,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
           if (intact && mode.hardening_modulus < 0.0)
             g.add(CompositeGuard::localisation, -flow_localisation(s, m, mode.hardening_modulus));
       }
-    } else if (surface_acts(mode.tension)) {
+    } else if (surface_acts(mode.tension, s)) {
       g.add(CompositeGuard::yield, yield_function(s, m) / yield_scale());
     }
   }
@@ -203,16 +205,19 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
         g.add(CompositeGuard::opening_stops, (w.strength - w.drive.traction) / s.cohesive_strength);
       } else {
         g.add(CompositeGuard::opening_stops,
-              -r.decohesion * per_size * decohesion_.reference_opening() / s.effective_length);
+              -r.decohesion * per_size * decohesion_.opening(s.cohesive_strength) / s.effective_length);
         g.add(CompositeGuard::snap_back, 0.5 * CompositeRates::least_fraction - r.fraction);
       }
-      g.add(CompositeGuard::normal_traction_sign,
-            (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
+      if (!decohesion_.parameters().pressure_counts)
+        g.add(CompositeGuard::normal_traction_sign,
+              (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
       g.add(CompositeGuard::separation, s.decohesion - 1.0);
+    } else if (decohesion_.parameters().separated == Separated::nothing) {
+      // Nothing that happens to the point changes what it bears.
     } else if (mode.plane == Plane::open) {
       g.add(CompositeGuard::closure, -s.opening_n * per_size / s.effective_length);
     } else if (mode.plane == Plane::closed) {
-      g.add(CompositeGuard::opening, traction_now.normal * per_size / elastic_.p_wave());
+      g.add(CompositeGuard::opening, (has_faces ? traction_now.normal / elastic_.p_wave() : t) * per_size);
     }
   }
 }

@@ -192,8 +192,8 @@ void CompositeEvolution<D, Y, C>::select_damage(CompositeMode& mode, CompositeSt
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::is_near_surface(const CompositeMode& mode, const CompositeState& s) const {
   if constexpr (has_yield) {
-    if (!surface_acts(mode.tension)) return false;
-    const Moduli m = secant(mode.tension, s.crack_density);
+    if (!surface_acts(mode.tension, s)) return false;
+    const Moduli m = secant(mode.tension, s);
     return yield_function(s, m) >= -tolerance::on_surface * m.shear * norm(deviator(s.elastic_strain));
   } else {
     return false;
@@ -203,7 +203,7 @@ bool CompositeEvolution<D, Y, C>::is_near_surface(const CompositeMode& mode, con
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::on_surface(const CompositeMode& mode, const CompositeState& s,
                                              bool reached) const {
-  return surface_acts(mode.tension) && (reached || mode.flowing || is_near_surface(mode, s));
+  return surface_acts(mode.tension, s) && (reached || mode.flowing || is_near_surface(mode, s));
 }
 
 template <bool D, Yielding Y, bool C>
@@ -211,7 +211,7 @@ bool CompositeEvolution<D, Y, C>::at_strength(const CompositeMode& mode, const C
   if constexpr (C) {
     using Plane = CompositeMode::Plane;
     if (mode.plane != Plane::held && mode.plane != Plane::decohering) return false;
-    const Moduli m = secant(mode.tension, s.crack_density);
+    const Moduli m = secant(mode.tension, s);
     const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
     const double N = decohesion_.effective_traction(t.normal, t.tangential);
     return N > 0.0 && N >= decohesion_.strength(s.decohesion, s.cohesive_strength) -
@@ -244,9 +244,10 @@ bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, c
   if constexpr (C) {
     mode.viscous = decohesion_.viscosity() > 0.0;
     if (may_open) {
-      const Moduli m = secant(mode.tension, s.crack_density);
+      const Moduli m = secant(mode.tension, s);
       const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
-      if (mode.plane == Plane::held) mode.pulled = t.normal > 0.0;
+      if (mode.plane == Plane::held)
+        mode.pulled = t.normal > 0.0 || decohesion_.parameters().pressure_counts;
     }
     if (mode.plane == Plane::held || mode.plane == Plane::decohering)
       mode.plane = may_open ? Plane::decohering : Plane::held;

@@ -5,9 +5,12 @@
 
 namespace vitrum {
 
-/// Whether a yield surface exists on this side of zero mean strain (Drucker-Prager: under pressure only).
+/// Whether a yield surface exists on this side of zero mean strain (Drucker-Prager: under pressure only), and
+/// for a point that is as far as this one.
 template <bool D, Yielding Y, bool C>
-constexpr bool CompositeModels<D, Y, C>::surface_acts(bool tension) {
+bool CompositeModels<D, Y, C>::surface_acts(bool tension, const CompositeState& s) const {
+  if constexpr (has_yield && C)
+    if (is_localised(s) && !decohesion_.flows_behind(is_separated(s))) return false;
   return Y == Yielding::von_mises || (Y == Yielding::drucker_prager && !tension);
 }
 
@@ -70,8 +73,8 @@ double CompositeModels<D, Y, C>::flow(CompositeState& s, const Moduli& moduli,
 template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::fall_onto_surface(const CompositeMode& mode, CompositeState& s,
                                                  Dissipation& dissipation) const {
-  if (!surface_acts(mode.tension)) return false;
-  const Moduli m = secant(mode.tension, s.crack_density);
+  if (!surface_acts(mode.tension, s)) return false;
+  const Moduli m = secant(mode.tension, s);
   const double excess = yield_function(s, m);
   if (!(excess > tolerance::on_surface * m.shear * norm(deviator(s.elastic_strain)))) return false;
   if (C && mode.separated()) {
@@ -96,7 +99,7 @@ void CompositeModels<D, Y, C>::fall_to_admissible_stress(CompositeMode& mode, Co
       if (turn == 0 && is_yield) report.record(EventKind::yield, fraction, stress(s));
       if constexpr (C) {
         if (!is_overloaded(mode, s)) break;
-        snap_back(s, secant(mode.tension, s.crack_density), report.dissipation);
+        snap_back(s, secant(mode.tension, s), report.dissipation);
         if (is_separated(s)) enter_separated(mode, s, fraction, report);
       }
     }
@@ -107,7 +110,7 @@ void CompositeModels<D, Y, C>::fall_to_admissible_stress(CompositeMode& mode, Co
 template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::softens_past_equilibrium(const CompositeMode& mode,
                                                         const CompositeState& s) const {
-  const Moduli m = secant(mode.tension, s.crack_density);
+  const Moduli m = secant(mode.tension, s);
   SymmetricTensor given = flow_direction(s);
   if constexpr (C) {
     double gap = 0.0, slip = 0.0;

@@ -26,7 +26,7 @@ struct StepRecord {
   Dissipation dissipated;         ///< in the step
   double contact = 0.0;           ///< stored between bodies, at the end of the step
   double friction = 0.0;          ///< dissipated between bodies in the step
-  double filtered = 0.0;          ///< removed by the filter of pressures in the step
+  double filtered = 0.0;          ///< removed by the filters of pressures and velocities in the step
   double external_work = 0.0;     ///< of gravity, tractions and prescribed velocities in the step
   std::vector<BodyEvent> events;  ///< in order of time, body and identity
   /// Impulse of each boundary on the bodies, two components each, since the record was last read: who reads
@@ -46,6 +46,7 @@ struct System {
   double cell = 0.0;               ///< m
   bool between_centroids = false;  ///< gradients are taken between centroids, not between nodes
   bool filters = false;            ///< pressures that nodes do not see are removed (mpm/filter.hpp)
+  double flip = 1.0;               ///< share of velocities that nodes do not see that stays in a step
   std::vector<Body> bodies;
   std::array<double, 2> gravity{0.0, 0.0};  ///< m/s^2, at present (mpm/loads.hpp)
   std::array<std::shared_ptr<const mpm::LoadFunction>, 2> gravity_over_time{};  ///< null: constant

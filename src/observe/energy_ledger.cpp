@@ -134,7 +134,7 @@ void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantiti
       {"fracture", unit, "energy dissipated by decohesion", e.fracture},
       {"contact", unit, "energy stored between bodies", e.contact},
       {"friction", unit, "energy dissipated by friction between bodies", e.friction},
-      {"filtered", unit, "energy removed by the filter of pressures", e.filtered},
+      {"filtered", unit, "energy removed by the filters", e.filtered},
       {"external", unit, "work of gravity, tractions and prescribed velocities", e.external},
       {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth}};

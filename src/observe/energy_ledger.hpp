@@ -24,7 +24,7 @@ class EnergyLedger final : public Observer {
       {"residual", "J", "initial + external - all others: what the numerics made (negative) or lost", true},
       {"contact", "J", "stored between bodies", true},
       {"friction", "J", "dissipated by friction between bodies so far", true},
-      {"filtered", "J", "removed by the filter of pressures so far", true}};
+      {"filtered", "J", "removed by the filters so far", true}};
   static constexpr TableInfo table_info{"energy", "the energy account, a thousand rows between start and end",
                                         columns};
   static std::unique_ptr<Observer> make(const Scene& scene, const System& system);

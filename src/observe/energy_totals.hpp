@@ -23,7 +23,7 @@ struct EnergyTotals {
   double rounding = 0.0;      ///< what rounding makes of the scene's own energies
   double contact = 0.0;       ///< stored between bodies
   double friction = 0.0;      ///< dissipated between bodies so far
-  double filtered = 0.0;      ///< removed by the filter of pressures so far
+  double filtered = 0.0;      ///< removed by the filters so far
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {

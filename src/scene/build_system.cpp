@@ -208,6 +208,7 @@ System build_system(const Scene& scene, int threads) {
     system.bodies.push_back(make_body(scene, index, make_material(scene.material_of(index), scene.cell)));
   system.between_centroids = scene.gradients == Gradients::centroids;
   system.filters = scene.filter == Filter::pressures;
+  system.flip = scene.flip;
   system.grid =
       mpm::Grid(scene.cell, scene.shape_functions, system.axisymmetric, make_boundaries(scene, system));
   if (scene.shape_functions == mpm::ShapeKind::cpgimp) mpm::keep_domains(system);

@@ -24,6 +24,13 @@ inline constexpr std::array damage_strains{Named{"mean", false}, Named{"volumetr
 inline constexpr std::array damage_rates{Named{"running-maximum", DamageRate::running_maximum},
                                          Named{"current", DamageRate::current},
                                          Named{"maximum-any-sign", DamageRate::maximum_any_sign}};
+/// Whether c of eq. 7 is the speed of pressure waves.
+inline constexpr std::array damage_wave_speeds{Named{"bar", false}, Named{"pressure-wave", true}};
+/// Whether E of eq. 10 is that of the virgin material.
+inline constexpr std::array cohesive_moduli{Named{"damaged", false}, Named{"undamaged", true}};
+inline constexpr std::array separated_points{Named{"faces", Separated::faces},
+                                             Named{"pressure", Separated::pressure},
+                                             Named{"nothing", Separated::nothing}};
 /// Whether the flow is associated.
 inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
 /// Whether the search for a decohesion plane goes beyond the plane of the scene.

@@ -93,6 +93,8 @@ const Table& damage_table() {
       "5, 6 and 8 make the shear modulus rise with the crack density.",
       {{"strain", &DamageParameters::volumetric, damage_strains,
         "eps_v of eq. 7: the mean strain tr(e)/3, or the volumetric one, tr(e)"},
+       {"wave_speed", &DamageParameters::pressure_wave, damage_wave_speeds,
+        "c of eq. 7: sqrt(E/rho), that of a bar, or that of pressure waves, sqrt((K + 4G/3)/rho)"},
        rate_row()});
   return table;
 }
@@ -118,7 +120,12 @@ const Table& decohesion_table() {
   static const Table table = model_table<DecohesionParameters>(
       "decohesion", "",
       {{"plane", &DecohesionParameters::search_all_planes, planes,
-        "normals searched: in the plane of the scene, or the hoop direction too"}});
+        "normals searched: in the plane of the scene, or the hoop direction too"},
+       {"moduli", &DecohesionParameters::undamaged, cohesive_moduli,
+        "E of eq. 10, from localisation on: with the damage reached, or of the virgin material"},
+       {"separated", &DecohesionParameters::separated, separated_points,
+        "what bears a separated point: two faces, free of traction while open and frictionless once closed; "
+        "pressure alone, once its void is closed; or nothing"}});
   return table;
 }
 

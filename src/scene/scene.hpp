@@ -140,6 +140,7 @@ struct Scene {
   mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;
   Gradients gradients = Gradients::nodes;
   Filter filter = Filter::none;
+  double flip = 1.0;  ///< share of FLIP in the transfer of velocities; 0: PIC
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;
   ConstitutiveDefinition constitutive;

@@ -62,6 +62,38 @@ const Table& scene_table(Geometry geometry) {
   return geometry == Geometry::axisymmetric ? axisymmetric : plane_strain;
 }
 
+namespace {
+
+/// How velocities go from nodes to particles: by name, or by the share of FLIP.
+Field<Scene> transfer_row() {
+  static const Table share = schema::in_one_line(table_of<Scene>(
+      "`transfer` of [space] as a table", "",
+      {{"flip", &Scene::flip, "1", {0.0, 1.0}, "share of FLIP in each step, the rest is PIC", required}}));
+  const auto is_text = [](const Scene& scene) { return scene.flip == 1.0 || scene.flip == 0.0; };
+  const auto get = [is_text](const Scene& scene) -> std::optional<schema::Value> {
+    if (!is_text(scene)) return std::nullopt;
+    return std::string(scene.flip == 1.0 ? "flip" : "pic");
+  };
+  const auto set = [](Scene& scene, const schema::Value& value) {
+    scene.flip = std::get<std::string>(value) == "flip" ? 1.0 : 0.0;
+  };
+  auto row = Field<Scene>::of("transfer", {schema::Kind::text},
+                              "velocities of particles take the change of the nodes' velocities, or these "
+                              "themselves, which is a filter: it takes away, in every step (`arkode-implicit`: "
+                              "phase), what nodes do not see, and is booked as `filtered`",
+                              schema::Need::optional, get, set)
+                 .expecting("\"flip\", \"pic\", or a table {flip = SHARE}");
+  row.choices = {"flip", "pic"};
+  row.table = &share;
+  row.open = [](void* scene, const std::string&) { return scene; };
+  row.look = [is_text](const void* scene, std::size_t n) {
+    return n == 0 && !is_text(*static_cast<const Scene*>(scene)) ? scene : nullptr;
+  };
+  return row;
+}
+
+}  // namespace
+
 const Table& space_table() {
   static const Table table = table_of<Scene>(
       "[space]", "Geometry and grid.",
@@ -83,7 +115,8 @@ const Table& space_table() {
         "collect: bodies that turn are not strained"},
        {"filter", &Scene::filter, filters,
         "`pressures`: what particles of a cell store against each other, and nodes do not see, is removed "
-        "and booked as `filtered`; for more than one particle a cell"}});
+         "and booked as `filtered`; for more than one particle a cell"},
+        transfer_row()});
   return table;
 }
 

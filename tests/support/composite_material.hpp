@@ -65,6 +65,7 @@ class CompositeMaterial {
   Moduli secant_moduli(const CompositeState& s) const {
     Moduli m = elastic_moduli(parameters().elastic);
     if (!parameters().damage || !(s.crack_density > 0.0)) return m;
+    if (is_localised(s) && parameters().decohesion->undamaged) return m;
     const Moduli damaged =
         DamageLaw(*parameters().damage, parameters().elastic).moduli(s.crack_density / crack_density_limit);
     m.shear = damaged.shear;

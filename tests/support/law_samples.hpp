@@ -77,7 +77,7 @@ inline LawSample sample_of(const RegisteredLaw& law) {
 }
 
 /// The minimal law, every registered law, and every composition of the composite, damage with every
-/// reading of eq. 7.
+/// reading of the paper.
 inline std::vector<LawSample> law_samples() {
   std::vector<LawSample> all{{"minimal", minimal_material(), 4e-3}};
   for (const RegisteredLaw& law : registered_laws()) all.push_back(sample_of(law));
@@ -87,6 +87,9 @@ inline std::vector<LawSample> law_samples() {
                    .turns = !named.parameters.decohesion});
   for (const NamedMaterial& named : rated_damages())
     all.push_back({.name = named.name, .material = make_material(named.parameters, cell)});
+  for (const NamedMaterial& named : readings())
+    all.push_back(
+        {.name = named.name, .material = make_material(named.parameters, cell), .turns = false});
   return all;
 }
 

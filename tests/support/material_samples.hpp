@@ -82,6 +82,33 @@ inline std::vector<NamedMaterial> rated_damages() {
           glass("fixed rate", [](P& p) { p.fixed_rate = 1.0e3; })};
 }
 
+/// Glass with all its models, by every reading of eqs. 7 and 10 to 18 but the default, one at a time, and by all
+/// of them at once.
+inline std::vector<NamedMaterial> readings() {
+  const auto glass = [](const std::string& name, auto choose) {
+    NamedMaterial named{name, fracturing_glass()};
+    named.parameters.drucker_prager = glass_drucker_prager();
+    choose(named.parameters);
+    return named;
+  };
+  using P = MaterialParameters;
+  return {glass("pressure waves", [](P& p) { p.damage->pressure_wave = true; }),
+          glass("undamaged moduli", [](P& p) { p.decohesion->undamaged = true; }),
+          glass("pressure counts", [](P& p) { p.decohesion->pressure_counts = true; }),
+          glass("tension alone", [](P& p) { p.decohesion->partial_compression = false; }),
+          glass("no flow behind the plane", [](P& p) { p.decohesion->flow_behind_plane = false; }),
+          glass("given tau_bar_0", [](P& p) { p.decohesion->tau_bar_0 = 60.0e6; }),
+          glass("rubble bears pressure", [](P& p) { p.decohesion->separated = Separated::pressure; }),
+          glass("rubble bears nothing", [](P& p) { p.decohesion->separated = Separated::nothing; }),
+          glass("all at once", [](P& p) {
+            p.damage->pressure_wave = true;
+            p.decohesion->undamaged = p.decohesion->pressure_counts = true;
+            p.decohesion->partial_compression = p.decohesion->flow_behind_plane = false;
+            p.decohesion->tau_bar_0 = 60.0e6;
+            p.decohesion->separated = Separated::pressure;
+          })};
+}
+
 /// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not.
 /// Strengths are chosen such that every model acts at strains of about 1e-3.
 inline std::vector<NamedMaterial> all_compositions() {
