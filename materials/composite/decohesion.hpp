@@ -69,7 +69,8 @@ struct PlaneTraction {
   double normal_stiffness, tangential_stiffness;  ///< diagonal of Q_e: lambda + 2G and G, Pa
 };
 
-/// The effective traction N on a plane (Pa) and its gradient dN/d(traction), m of eq. 16 over its length in mode I.
+/// The effective traction N on a plane (Pa) and its gradient dN/d(traction), m of eq. 16 over its length in
+/// mode I.
 struct PlaneDrive {
   double traction, normal, tangential;
 };
@@ -83,9 +84,7 @@ class DecohesionLaw {
       : parameters_(parameters), shear_weight_(1.0 / (parameters.mode_ratio * parameters.mode_ratio)) {}
 
   /// Of the normal traction, what drives decohesion, Pa.
-  double driving(double normal) const {
-    return parameters_.pressure_counts ? normal : std::max(normal, 0.0);
-  }
+  double driving(double normal) const { return parameters_.pressure_counts ? normal : std::max(normal, 0.0); }
   /// N = sqrt(<tau_n>^2 + (tau_t/C_m)^2), Pa: the effective traction over u0 (eq. 15 with tau_bar_0 =
   /// tau_np).
   double effective_traction(double normal, double tangential) const {

@@ -62,16 +62,17 @@ schema::Fields<DecohesionParameters> DecohesionParameters::rows() {
 }
 
 std::vector<Variable> damage_variables() {
-  return {{.name = "crack_density",
-           .unit = "1",
-           .text = "crack density rho_d, eq. 7",
-           .scale = crack_density_limit,
-           .bounds = {0.0, crack_density_limit}},
-          {.name = "max_rate",
-           .unit = "1/s",
-           .text = "strain rate that enters eq. 7 (`damage.rate`): by default the largest so far under tension",
-           .scale = 1.0e3,
-           .bounds = not_negative}};
+  return {
+      {.name = "crack_density",
+       .unit = "1",
+       .text = "crack density rho_d, eq. 7",
+       .scale = crack_density_limit,
+       .bounds = {0.0, crack_density_limit}},
+      {.name = "max_rate",
+       .unit = "1/s",
+       .text = "strain rate that enters eq. 7 (`damage.rate`): by default the largest so far under tension",
+       .scale = 1.0e3,
+       .bounds = not_negative}};
 }
 
 std::vector<Variable> averaged_rate_variables() {

@@ -170,8 +170,7 @@ void CompositeEvolution<D, Y, C>::separate_plane(CompositeMode& mode, CompositeS
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::shear_carries_strength(const CompositeMode& mode,
                                                          const CompositeState& s) const {
-  const PlaneTraction t =
-      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
+  const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
   return mode.viscous || decohesion_.effective_traction(0.0, t.tangential) >
                              0.5 * decohesion_.strength(s.decohesion, s.cohesive_strength);
 }

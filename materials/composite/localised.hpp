@@ -121,8 +121,8 @@ double CompositeClosedForm<D, Y, C>::advance_cohesive(CompositeState& s, const S
     const double growth = next.decohesion - s.decohesion;
     double surface = decohesion_.surface_energy(s.decohesion, next.decohesion, s.cohesive_strength);
     if (viscous && f * duration > 0.0)  // the overstress tau_np eta lambda' works on the opening as well
-      surface += decohesion_.opening(s.cohesive_strength) * s.cohesive_strength * decohesion_.viscosity() * growth *
-                 growth / (f * duration);
+      surface += decohesion_.opening(s.cohesive_strength) * s.cohesive_strength * decohesion_.viscosity() *
+                 growth * growth / (f * duration);
     dissipation.fracture += surface / s.effective_length;
     s.elastic_strain +=
         f * strain - plane.jump_strain(next.normal_opening, next.tangential_opening, s.effective_length);

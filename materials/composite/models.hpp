@@ -42,9 +42,7 @@ class CompositeModels {
       if (damage_.averages_rate()) f(s.mean_rate);
   }
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
-  Moduli secant_moduli(const CompositeState& s) const {
-    return secant(trace(s.elastic_strain) > 0.0, s);
-  }
+  Moduli secant_moduli(const CompositeState& s) const { return secant(trace(s.elastic_strain) > 0.0, s); }
   double stored_energy(const CompositeState& s) const { return secant_moduli(s).energy(s.elastic_strain); }
   SymmetricTensor stress(const CompositeState& s) const { return secant_moduli(s).stress(s.elastic_strain); }
 

@@ -12,8 +12,8 @@ double CompositeModels<D, Y, C>::largest_normal_strain(const SymmetricTensor& e)
   return decohesion_.parameters().search_all_planes ? std::max(in_plane, e.tt) : in_plane;
 }
 
-/// The largest compressive principal stress under tension, over 2 G_bar and the size of the strain; negative where
-/// there is none. (The hoop direction is a principal one. G_bar itself may vanish.)
+/// The largest compressive principal stress under tension, over 2 G_bar and the size of the strain; negative
+/// where there is none. (The hoop direction is a principal one. G_bar itself may vanish.)
 template <bool D, Yielding Y, bool C>
 double CompositeModels<D, Y, C>::compression(const CompositeState& s) const {
   const SymmetricTensor& e = s.elastic_strain;
@@ -22,7 +22,8 @@ double CompositeModels<D, Y, C>::compression(const CompositeState& s) const {
   return -(lateral * trace(e) + std::min(in_plane, e.tt)) / norm(e);
 }
 
-/// <= 0 where growing damage admits a discontinuity (Phi), and the scene's reading of the paper a localisation.
+/// <= 0 where growing damage admits a discontinuity (Phi), and the scene's reading of the paper a
+/// localisation.
 template <bool D, Yielding Y, bool C>
 double CompositeModels<D, Y, C>::damage_localisation(const CompositeState& s) const {
   const SymmetricTensor& e = s.elastic_strain;
@@ -44,9 +45,9 @@ double CompositeModels<D, Y, C>::flow_localisation(const CompositeState& s, cons
   return 1.0 - plane.severity;
 }
 
-/// Fixes plane, strength (eq. 18) and effective length from the state at localisation. Where E of eq. 10 is that
-/// of the virgin material, the stress keeps: what damage had added to the elastic strain stays for good, and so
-/// does the energy that it stored.
+/// Fixes plane, strength (eq. 18) and effective length from the state at localisation. Where E of eq. 10 is
+/// that of the virgin material, the stress keeps: what damage had added to the elastic strain stays for good,
+/// and so does the energy that it stored.
 template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::start_decohesion(bool tension, [[maybe_unused]] bool damage_grows,
                                                 CompositeState& s,
@@ -123,8 +124,7 @@ SymmetricTensor CompositeModels<D, Y, C>::strain_left_by_faces(const CompositeMo
 template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::is_overloaded(const CompositeMode& mode, const CompositeState& s) const {
   if (mode.viscous || !(mode.plane == CompositeMode::Plane::held || mode.decohering())) return false;
-  const PlaneTraction t =
-      traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
+  const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, secant(mode.tension, s));
   return decohesion_.effective_traction(t.normal, t.tangential) >
          decohesion_.strength(s.decohesion, s.cohesive_strength) +
              tolerance::on_surface * s.cohesive_strength;

@@ -246,8 +246,7 @@ bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, c
     if (may_open) {
       const Moduli m = secant(mode.tension, s);
       const PlaneTraction t = traction(DecohesionPlane{s.normal}, s.elastic_strain, m);
-      if (mode.plane == Plane::held)
-        mode.pulled = t.normal > 0.0 || decohesion_.parameters().pressure_counts;
+      if (mode.plane == Plane::held) mode.pulled = t.normal > 0.0 || decohesion_.parameters().pressure_counts;
     }
     if (mode.plane == Plane::held || mode.plane == Plane::decohering)
       mode.plane = may_open ? Plane::decohering : Plane::held;

@@ -184,7 +184,8 @@ std::string Simulation::summary_text(const output::RunSummary& s) const {
         s.error->position, s.error->velocity,
         s.phases > 0 ? fmt::format("; {} phases, remaps lost {:.3g} {}", s.phases, s.remap_loss, unit)
                      : fmt::format(", strain {:.2g}", s.error->strain));
-  if (system_.filters || system_.flip < 1.0) text += fmt::format("filters removed {:.5g} {}\n", e.filtered, unit);
+  if (system_.filters || system_.flip < 1.0)
+    text += fmt::format("filters removed {:.5g} {}\n", e.filtered, unit);
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)

@@ -38,7 +38,7 @@ struct StepRecord {
 namespace mpm {
 class Contact;
 class Tractions;
-}
+}  // namespace mpm
 
 /// All that moves: bodies, their grid, and how their particles' local equations are integrated.
 struct System {
@@ -53,8 +53,8 @@ struct System {
   mpm::Grid grid;
   std::unique_ptr<LocalIntegrator> local;
   std::unique_ptr<parallel::ThreadTeam> team;
-  parallel::Wave wave;                    ///< how the team goes over the grid
-  std::shared_ptr<mpm::Contact> contact;  ///< null: bodies share one velocity field
+  parallel::Wave wave;                        ///< how the team goes over the grid
+  std::shared_ptr<mpm::Contact> contact;      ///< null: bodies share one velocity field
   std::shared_ptr<mpm::Tractions> tractions;  ///< null: there are none
 
   double time = 0.0;  ///< s

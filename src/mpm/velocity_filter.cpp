@@ -14,7 +14,8 @@ void project_freely(System& system) {
       const double* momentum = grid.field(c == 0 ? Field::momentum_0 : Field::momentum_1);
       double* velocity = grid.field(c == 0 ? Field::velocity_0 : Field::velocity_1);
       for (std::size_t n = block * block_nodes; n < (block + 1) * block_nodes; ++n)
-        velocity[n] = mass[n] > 0.0 && grid.constraint(c, n) != Constraint::axis ? momentum[n] / mass[n] : 0.0;
+        velocity[n] =
+            mass[n] > 0.0 && grid.constraint(c, n) != Constraint::axis ? momentum[n] / mass[n] : 0.0;
     }
   });
 }

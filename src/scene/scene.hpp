@@ -124,10 +124,10 @@ struct ContactPair {
 struct ContactDefinition {
   bool stated = false;  ///< the scene has a table [contact]
   ContactMethod method = ContactMethod::single;
-  double friction = 0.0;   ///< may be infinite
-  double stiffness = 1.0;  ///< of the two materials over a cell
+  double friction = 0.0;        ///< may be infinite
+  double stiffness = 1.0;       ///< of the two materials over a cell
   std::optional<double> depth;  ///< cells; none: from the speeds at which bodies meet
-  bool self = false;       ///< fragments of one body touch, too
+  bool self = false;            ///< fragments of one body touch, too
   std::vector<ContactPair> pairs;
 };
 
@@ -140,7 +140,7 @@ struct Scene {
   mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;
   Gradients gradients = Gradients::nodes;
   Filter filter = Filter::none;
-  double flip = 1.0;  ///< share of FLIP in the transfer of velocities; 0: PIC
+  double flip = 1.0;              ///< share of FLIP in the transfer of velocities; 0: PIC
   double start = 0.0, end = 0.0;  ///< s
   IntegratorDefinition integrator;
   ConstitutiveDefinition constitutive;

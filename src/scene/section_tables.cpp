@@ -77,12 +77,13 @@ Field<Scene> transfer_row() {
   const auto set = [](Scene& scene, const schema::Value& value) {
     scene.flip = std::get<std::string>(value) == "flip" ? 1.0 : 0.0;
   };
-  auto row = Field<Scene>::of("transfer", {schema::Kind::text},
-                              "velocities of particles take the change of the nodes' velocities, or these "
-                              "themselves, which is a filter: it takes away, in every step (`arkode-implicit`: "
-                              "phase), what nodes do not see, and is booked as `filtered`",
-                              schema::Need::optional, get, set)
-                 .expecting("\"flip\", \"pic\", or a table {flip = SHARE}");
+  auto row =
+      Field<Scene>::of("transfer", {schema::Kind::text},
+                       "velocities of particles take the change of the nodes' velocities, or these "
+                       "themselves, which is a filter: it takes away, in every step (`arkode-implicit`: "
+                       "phase), what nodes do not see, and is booked as `filtered`",
+                       schema::Need::optional, get, set)
+          .expecting("\"flip\", \"pic\", or a table {flip = SHARE}");
   row.choices = {"flip", "pic"};
   row.table = &share;
   row.open = [](void* scene, const std::string&) { return scene; };

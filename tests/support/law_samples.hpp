@@ -88,8 +88,7 @@ inline std::vector<LawSample> law_samples() {
   for (const NamedMaterial& named : rated_damages())
     all.push_back({.name = named.name, .material = make_material(named.parameters, cell)});
   for (const NamedMaterial& named : readings())
-    all.push_back(
-        {.name = named.name, .material = make_material(named.parameters, cell), .turns = false});
+    all.push_back({.name = named.name, .material = make_material(named.parameters, cell), .turns = false});
   return all;
 }
 

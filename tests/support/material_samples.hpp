@@ -82,8 +82,8 @@ inline std::vector<NamedMaterial> rated_damages() {
           glass("fixed rate", [](P& p) { p.fixed_rate = 1.0e3; })};
 }
 
-/// Glass with all its models, by every reading of eqs. 7 and 10 to 18 but the default, one at a time, and by all
-/// of them at once.
+/// Glass with all its models, by every reading of eqs. 7 and 10 to 18 but the default, one at a time, and by
+/// all of them at once.
 inline std::vector<NamedMaterial> readings() {
   const auto glass = [](const std::string& name, auto choose) {
     NamedMaterial named{name, fracturing_glass()};

@@ -1,5 +1,5 @@
-// What the paper leaves open after eq. 7: each reading against its closed form, every local method against the
-// others, and the account.
+// What the paper leaves open after eq. 7: each reading against its closed form, every local method against
+// the others, and the account.
 #include "catch.hpp"
 #include "support/cracked_state.hpp"
 #include "support/local_solvers.hpp"
@@ -59,7 +59,7 @@ TEST_CASE("eq. 7 with the speed of pressure waves: less crack density by the squ
 TEST_CASE("eq. 10 with undamaged moduli: the stress keeps at the onset, which is booked",
           "[material][decohesion][reading][energy]") {
   const MaterialParameters plain = glass_with([](MaterialParameters&) {}),
-                           p = glass_with([](MaterialParameters& g) { g.decohesion->undamaged = true; });
+                           p = glass_with([](MaterialParameters&g) { g.decohesion->undamaged = true; });
   const double rate = 3e3;
   const double onset =
       drive(*composite_of(plain, cell), {stretch(3e-3, rate)}, 1).time_of(EventKind::localisation) * rate;
@@ -141,9 +141,9 @@ TEST_CASE("no localisation under partial compression, no difference without",
   CHECK(distance(a.state.stress, b.state.stress) == 0.0);
 }
 
-TEST_CASE("without flow behind the plane a localised point stays elastic", "[material][decohesion][reading]") {
-  const std::vector<Segment> path{stretch(3e-3, 3e3),
-                                  {SymmetricTensor{-6e-3, -1e-3, 1e-3, 4e-3}, 1e-6}};
+TEST_CASE("without flow behind the plane a localised point stays elastic",
+          "[material][decohesion][reading]") {
+  const std::vector<Segment> path{stretch(3e-3, 3e3), {SymmetricTensor{-6e-3, -1e-3, 1e-3, 4e-3}, 1e-6}};
   with_every_method(glass_with([](MaterialParameters&) {}), path, 50, {},
                     [](const Driven& d) { CHECK(d.state.plastic_strain > 1e-4); });
   with_every_method(glass_with([](MaterialParameters& g) { g.decohesion->flow_behind_plane = false; }), path,

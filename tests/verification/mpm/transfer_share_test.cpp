@@ -69,7 +69,9 @@ TEST_CASE("What nodes do not see of random velocities: momentum keeps, the energ
 TEST_CASE("Uniform motion passes the filter of velocities", "[mpm][transfer]") {
   for (const char* integrator : integrators) {
     CAPTURE(integrator);
-    MpmRun run(parse_scene(ball("\"pic\"", integrator, "velocity = [0, 50]\nperturbation = {amplitude = 0.01, seed = 1}"), "ball.toml"));
+    MpmRun run(parse_scene(
+        ball("\"pic\"", integrator, "velocity = [0, 50]\nperturbation = {amplitude = 0.01, seed = 1}"),
+        "ball.toml"));
     run.advance(5e-6);
     CHECK(run.energy().kinetic == Approx(run.energy().initial).epsilon(1e-9));
     CHECK(std::abs(run.energy().filtered) < 1e-12 * run.energy().initial);
@@ -87,7 +89,8 @@ TEST_CASE("The filter of velocities acts in every integrator, and its account cl
       CHECK(axial_momentum(run.system.bodies[0]) == Approx(momentum).epsilon(1e-9));
       return run.energy();
     };
-    const EnergyTotals flip = run_with("\"flip\""), some = run_with("{flip = 0.9}"), pic = run_with("\"pic\"");
+    const EnergyTotals flip = run_with("\"flip\""), some = run_with("{flip = 0.9}"),
+                       pic = run_with("\"pic\"");
     CHECK(flip.filtered == 0.0);
     CHECK(some.filtered > 0.0);
     CHECK(pic.filtered > some.filtered);
@@ -101,7 +104,8 @@ TEST_CASE("The filter of velocities acts in every step: shorter steps lose more"
           "[verification][mpm][transfer]") {
   const auto lost = [](double courant) {
     MpmRun run(parse_scene(
-        ball("\"pic\"", fmt::format("method = \"explicit\"\nscheme = \"musl\"\ncourant = {}", courant)), "b"));
+        ball("\"pic\"", fmt::format("method = \"explicit\"\nscheme = \"musl\"\ncourant = {}", courant)),
+        "b"));
     run.advance(5e-7);
     return run.energy().filtered;
   };
