@@ -1,5 +1,6 @@
 #include "mpm/velocity_filter.hpp"
 
+#include "mpm/centroids.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -36,6 +37,7 @@ double blend(Particles& p, const std::array<std::vector<double>, 2>& seen, doubl
 
 bool filter_velocities(System& system) {
   if (system.flip == 1.0) return false;
+  find_centroids(system);
   scatter(system, Scatter::momentum);
   project_freely(system);
   std::vector<std::array<std::vector<double>, 2>> seen(system.bodies.size());
