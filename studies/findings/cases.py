@@ -72,6 +72,3 @@ def picture_cases(_quick):
             "paper-step": Case("pictures/paper-step", scene, {**explicit("usf", 2e-7), "integrator.max_growth": float("inf")}),
             "musl-paper-step": Case("pictures/musl-paper-step", scene, explicit("musl", 2e-7)),
             "adaptive": Case("pictures/adaptive", scene, adaptive)}
-
-
-press = Case("press", "slow/press.toml", {}, fields=False)

@@ -64,14 +64,14 @@ def kinetic_apart(one, other):
 
 
 def point(name, out, **settings):
-    """Columns of `vitrum point` for studies/findings/NAME.toml, and its events as it tells them."""
+    """Columns of `vitrum point` for studies/findings/NAME.toml."""
     overrides = [text for key, value in settings.items() for text in ("--set", f"{key.replace('__', '.')}={value}")]
     done = subprocess.run([program(), "point", studies / "findings" / f"{name}.toml", "--out", out, *overrides], capture_output=True, text=True)
     if done.returncode != 0:
         raise StudyError(f"{name}: exit status {done.returncode}: {done.stderr.strip()}")
     with open(out, newline="") as file:
         rows = list(csv.reader(file))
-    return dict(zip(rows[0], np.array(rows[1:], float).T)), [line for line in done.stderr.splitlines() if line.startswith("event")]
+    return dict(zip(rows[0], np.array(rows[1:], float).T))
 
 
 def checked(scene):

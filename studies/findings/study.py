@@ -8,7 +8,7 @@ from study.provenance import commit
 from study.tables import markdown, number, write_csv
 
 from findings import figures
-from findings.cases import (local_cases, model_cases, models, picture_cases, press, resolved_step, scene, speed_cases, step_cases, us)
+from findings.cases import (local_cases, model_cases, models, picture_cases, resolved_step, scene, speed_cases, step_cases, us)
 from findings.measure import checked, ending, kinetic_apart, made, percent, place, point, row, span
 
 name = "findings"
@@ -21,15 +21,15 @@ groups = {"steps": step_cases, "models": model_cases, "speeds": speed_cases, "lo
 
 
 def jobs(quick):
-    return [*groups, "press"]
+    return list(groups)
 
 
 def cases(quick):
-    return [case for group in groups.values() for case in group(quick).values()] + [press]
+    return [case for group in groups.values() for case in group(quick).values()]
 
 
 def run(job, quick, out):
-    for case in [press] if job == "press" else groups[job](quick).values():
+    for case in groups[job](quick).values():
         compute(case, out / "runs")
 
 
@@ -97,8 +97,8 @@ def _material_curves(out):
     folder = out / "points"
     folder.mkdir(parents=True, exist_ok=True)
     # The mean strain grows by a third of the strain.
-    glass = {rate: point("glass", folder / f"glass-{rate:g}.csv", path__time=f"[0.0, {1e-2 / (3.0 * rate)!r}]")[0] for rate in rates}
-    steel, _ = point("steel", folder / "steel.csv")
+    glass = {rate: point("glass", folder / f"glass-{rate:g}.csv", path__time=f"[0.0, {1e-2 / (3.0 * rate)!r}]") for rate in rates}
+    steel = point("steel", folder / "steel.csv")
     figures.material_curves(glass, steel, out / "figures")
     peaks = {rate: columns["s_rr"].max() for rate, columns in glass.items()}
     mises = figures.von_mises(steel)
@@ -129,12 +129,9 @@ def block_values(quick, out):
     """What README.md says, from the same runs."""
     steps = {key: row(compute(case, out / "runs")) for key, case in step_cases(quick).items()}
     reference = row(compute(picture_cases(quick)["reference"], out / "runs"))
-    pressed, asked = compute(press, out / "runs").summary, checked("slow/press.toml")
-    _, events = point("glass", out / "points" / "readme.csv", path__time="[0.0, 1.0e-6]", path__strain="[[0, 0, 0, 0], [3.0e-3, 0, 0, 0]]")
     return {
         "commit": commit(), "ratio": number(checked(scene)["step_to_critical"], 2), "usf_paper": ending(steps["usf", 2e-7]), "musl_paper": ending(steps["musl", 2e-7]),
-        "residual": percent(abs(reference["residual"])), "events": "\n".join(events),
-        "press_steps": number(pressed["integrator"]["steps"]), "press_explicit": f"{round(pressed['time'] / asked['critical_step'], -3):,.0f}",
+        "residual": percent(abs(reference["residual"])),
     }
 
 

@@ -22,7 +22,7 @@ class Findings(StudyTest):
     def test_blocks_of_the_front_page(self):
         text = (self.out / "blocks-of-README.md").read_text()
         self.assertNotIn("{{", text)
-        for part in ("1.7 times the critical one", "event localisation t=4.9", "steps where the critical step asks 33,000", "at commit "):
+        for part in ("1.7 times the critical one", "of the impact's energy made by the numerics", "closes the account within", "at commit "):
             self.assertIn(part, text)
 
     def test_picture_carries_its_scene(self):
