@@ -14,7 +14,7 @@ double cost_of(mpm::ShapeKind shape) {
     case mpm::ShapeKind::gimp:
       return 2.6;
     case mpm::ShapeKind::cpgimp:
-      return 4.5;
+      return 3.5;
     case mpm::ShapeKind::bspline2:
       return 1.7;
   }

@@ -5,12 +5,12 @@ import numpy as np
 
 from space.cases import short_end
 
-punch = 5e-3  # m, radius of the cylinder
+punch, thickness = 5e-3, 5e-3  # m, radius of the cylinder, and of the plate
 # Key -> (label, unit, scale from SI).
 quantities = {
     "first_time": ("first localisation", "µs", 1e6), "first_radius": ("at r", "mm", 1e3), "first_height": ("at z", "mm", 1e3),
     "early_area": ("crack area at 10 µs", "mm²", 1e6), "crack_area": ("crack area", "mm²", 1e6), "inner_area": ("of it within 1.5 radii of the cylinder", "mm²", 1e6),
-    "strength": ("mean strength", "MPa", 1e-6), "localised_volume": ("localised volume", "mm³", 1e9), "localised_particles": ("localised particles", "", 1.0),
+    "lower_area": ("of it farther out, in the lower three fifths of the plate", "mm²", 1e6), "strength": ("mean strength", "MPa", 1e-6), "localised_volume": ("localised volume", "mm³", 1e9), "localised_particles": ("localised particles", "", 1.0),
     "fracture": ("fracture energy", "J", 1.0), "cylinder_velocity": ("velocity of the cylinder", "m/s", 1.0), "fragments": ("fragments of the plate", "", 1.0),
     "ringing": ("pressures within cells, of the energy", "%", 100.0), "residual": ("residual", "%", 100.0)}
 drawn = ("first_time", "first_radius", "crack_area", "localised_volume", "fracture", "cylinder_velocity")
@@ -18,11 +18,11 @@ shipped_quantities = {key: quantities[key] for key in ("first_time", "first_radi
 
 
 def _of_cracks(results, frame):
-    """(areas, m², radii, m, strengths, Pa) of the plate's cracked particles."""
+    """Of the plate's cracked particles: areas (m²), radii now and heights at the start (m), strengths (Pa)."""
     length = np.nan_to_num(frame["effective_length"])
     which = (results.body == 0) & (length > 0.0)
     density = results.scene["material"]["glass"]["density"]
-    return results.mass[which] / density / length[which], np.abs(frame.position[which, 0]), frame["cohesive_strength"][which]
+    return results.mass[which] / density / length[which], np.abs(frame.position[which, 0]), results.frames[0].position[which, 1], frame["cohesive_strength"][which]
 
 
 def of_run(outcome, last):
@@ -37,9 +37,10 @@ def of_run(outcome, last):
     row |= {"early_area": _of_cracks(results, frame)[0].sum() for frame in results.frames if abs(frame.time - short_end) < 1e-9}
     if summary["time"] < last:
         return row
-    area, radius, strength = _of_cracks(results, results.frames[-1])
+    area, radius, height, strength = _of_cracks(results, results.frames[-1])
     return row | {
-        "crack_area": plate["crack_area"], "inner_area": area[radius < 1.5 * punch].sum(), "strength": np.average(strength, weights=area) if area.size else None,
+        "crack_area": plate["crack_area"], "inner_area": area[radius < 1.5 * punch].sum(),
+        "lower_area": area[(radius >= 1.5 * punch) & (height < 0.6 * thickness)].sum(), "strength": np.average(strength, weights=area) if area.size else None,
         "localised_volume": plate["localised_volume"], "localised_particles": plate["localised"], "fracture": energy["fracture"],
         "cylinder_velocity": cylinder["momentum"][1] / cylinder["mass"], "fragments": plate["fragments"],
         "ringing": energy["ringing"] / energy["initial"]}

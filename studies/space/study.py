@@ -100,15 +100,14 @@ def _page_values(members, found, orders, shipped_members, quick):
     ratios = {"particle": ("localised_particles", four, base, "1"), "volume": ("localised_volume", four, base, "1"), "area": ("crack_area", four, base, "1"),
               "energy": ("fracture", four, base, "1")}
     if not quick:
-        ratios |= {"inner": ("inner_area", four, base, "1"), "strength": ("strength", four, base, "1"), "paper_area": ("crack_area", paper_four, paper, "1"),
+        ratios |= {"early": ("early_area", four, base, "1"), "inner": ("inner_area", four, base, "1"), "lower": ("lower_area", four, base, "1"), "strength": ("strength", four, base, "1"), "paper_area": ("crack_area", paper_four, paper, "1"),
                    "fixed_area": ("crack_area", fixed_four, fixed, "1"), "fine_area": ("crack_area", four, base, "0.5")}
     values = {f"{name}_ratio": number(_ratio(found, key, (of.name, cell), (to.name, cell))) for name, (key, of, to, cell) in ratios.items()}
-    if not quick:
-        values |= {"spacing_area_ratio": number(_ratio(found, "crack_area", (four.name, "1"), (base.name, "0.5"))),
-                   "spacing_energy_ratio": number(_ratio(found, "fracture", (four.name, "1"), (base.name, "0.5"))),
-                   "halved_area_ratio": number(_ratio(found, "crack_area", (base.name, "0.5"), (base.name, "1")))}
-    else:
-        values |= dict.fromkeys(("inner_ratio", "strength_ratio", "paper_area_ratio", "fixed_area_ratio", "fine_area_ratio", "spacing_area_ratio", "spacing_energy_ratio", "halved_area_ratio"), "")
+    across = {"spacing_area": ("crack_area", (four, "1"), (base, "0.5")), "spacing_energy": ("fracture", (four, "1"), (base, "0.5")), "halved_area": ("crack_area", (base, "0.5"), (base, "1")),
+              "halved_inner": ("inner_area", (base, "0.5"), (base, "1")), "quartered_area": ("crack_area", (base, "0.25"), (base, "0.5")), "four_halved_area": ("crack_area", (four, "0.5"), (four, "1")), "finest_area": ("crack_area", (base, "0.25"), (four, "0.5"))}
+    for name, (key, of, to) in across.items():
+        values[f"{name}_ratio"] = number(_ratio(found, key, (of[0].name, of[1]), (to[0].name, to[1])))
+    values |= dict.fromkeys((f"{name}_ratio" for name in ("early", "inner", "lower", "strength", "paper_area", "fixed_area", "fine_area") if quick), "")
     rows = [row for each in (members, shipped_members) for of_place in each.values() for row in of_place]
     return values | {
         "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
