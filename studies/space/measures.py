@@ -65,6 +65,9 @@ def statistics(values):
     return {"n": values.size, "median": float(np.median(values)), "least": float(values.min()), "most": float(values.max())}
 
 
+lowest_order = 0.6  # below, what is left to go is a guess
+
+
 def convergence(stats):
     """Of the three finest ensembles over halved cells that have the measure: (order, limit) where the medians approach a limit, and what to call it. The
     scatter of members decides whether a change is one."""
@@ -78,4 +81,6 @@ def convergence(stats):
     if first == 0.0 or not 0.0 < second / first < 1.0:
         return None, None, "no limit seen"
     ratio = second / first
+    if -math.log2(ratio) < lowest_order:
+        return None, None, "no limit seen"
     return -math.log2(ratio), stats[2]["median"] + second * ratio / (1.0 - ratio), "converges"

@@ -104,7 +104,7 @@ def _page_values(members, found, orders, shipped_members, quick):
                    "fixed_area": ("crack_area", fixed_four, fixed, "1"), "fine_area": ("crack_area", four, base, "0.5")}
     values = {f"{name}_ratio": number(_ratio(found, key, (of.name, cell), (to.name, cell))) for name, (key, of, to, cell) in ratios.items()}
     across = {"spacing_area": ("crack_area", (four, "1"), (base, "0.5")), "spacing_energy": ("fracture", (four, "1"), (base, "0.5")), "halved_area": ("crack_area", (base, "0.5"), (base, "1")),
-              "halved_inner": ("inner_area", (base, "0.5"), (base, "1")), "quartered_area": ("crack_area", (base, "0.25"), (base, "0.5")), "four_halved_area": ("crack_area", (four, "0.5"), (four, "1")), "finest_area": ("crack_area", (base, "0.25"), (four, "0.5"))}
+              "fixed_halved_area": ("crack_area", (fixed, "0.5"), (fixed, "1")), "fixed_four_halved_area": ("crack_area", (fixed_four, "0.5"), (fixed_four, "1")), "halved_inner": ("inner_area", (base, "0.5"), (base, "1")), "quartered_area": ("crack_area", (base, "0.25"), (base, "0.5")), "four_halved_area": ("crack_area", (four, "0.5"), (four, "1")), "finest_area": ("crack_area", (base, "0.25"), (four, "0.5"))}
     for name, (key, of, to) in across.items():
         values[f"{name}_ratio"] = number(_ratio(found, key, (of[0].name, of[1]), (to[0].name, to[1])))
     values |= dict.fromkeys((f"{name}_ratio" for name in ("early", "inner", "lower", "strength", "paper_area", "fixed_area", "fine_area") if quick), "")
