@@ -17,7 +17,7 @@ navigation = {
                "theory/events", "theory/other-laws", "theory/local-equations", "theory/discrete-equations", "theory/grid", "theory/boundaries", "theory/loads", "theory/contact",
                "theory/turning-bodies", "theory/explicit", "theory/adaptive", "theory/integrators", "theory/energy", "theory/failure", "theory/resolution"],
     "Reference": ["reference/scene", "reference/materials", "reference/result"],
-    "Reports": ["reports/verification", "reports/findings", "reports/study-paper", "reports/study-trade", "reports/study-sensitivity", "reports/study-stability",
+    "Reports": ["reports/verification", "reports/findings", "reports/study-paper", "reports/study-trade", "reports/study-sensitivity", "reports/study-space", "reports/study-stability",
                 "reports/performance", "reports/performance-measurements", "reports/performance-history"],
 }
 
