@@ -28,6 +28,7 @@
 ///     std::vector<std::size_t> stress_columns() const;  // what stress() reads; absent: all
 ///     Moduli secant_moduli(const State& state) const;   // where Hooke's law is its tangent
 ///     const EventDriven* event_driven() const;
+///     const std::optional<StrengthScatter>& scatter() const;  // of its strength
 ///
 /// and, for speed, elastic runs (`RunsElastically`): increments that change nothing but the elastic strain
 /// are found and taken by loops that are vectorised.
@@ -122,6 +123,12 @@ class Batch final : public Material {
       return law_.damage(value);
     else
       return value;
+  }
+  const StrengthScatter* scatter() const override {
+    if constexpr (requires { law_.scatter(); })
+      return law_.scatter() ? &*law_.scatter() : nullptr;
+    else
+      return nullptr;
   }
   const EventDriven* event_driven() const override {
     if constexpr (requires { law_.event_driven(); })

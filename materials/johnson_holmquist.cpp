@@ -37,6 +37,9 @@ schema::Fields<JohnsonHolmquistParameters> JohnsonHolmquistParameters::rows() {
       {"K3", &P::K3, "Pa", finite, "of mu^3 in the pressure"},
       {"beta", &P::beta, "1", fraction,
        "share of the elastic energy set free by fracture that becomes bulking"},
+      {"scatter", &P::scatter, StrengthScatter::table(),
+       "flaws: each point has its own T; under pressure, which closes them, they count the less the higher "
+       "it is; absent: none"},
   };
 }
 
@@ -60,30 +63,38 @@ std::optional<Contradiction> JohnsonHolmquist::contradiction(const ElasticParame
 }
 
 std::vector<Variable> JohnsonHolmquist::all_variables() {
-  return {{.name = "damage",
-           .unit = "1",
-           .text = "damage D; 1 means fractured",
-           .scale = 1.0,
-           .bounds = fraction},
-          {.name = "bulking",
-           .unit = "Pa",
-           .text = "pressure that fracture has added",
-           .scale = 1.0e8,
-           .bounds = not_negative}};
+  std::vector<Variable> list{{.name = "damage",
+                              .unit = "1",
+                              .text = "damage D; 1 means fractured",
+                              .scale = 1.0,
+                              .bounds = fraction},
+                             {.name = "bulking",
+                              .unit = "Pa",
+                              .text = "pressure that fracture has added",
+                              .scale = 1.0e8,
+                              .bounds = not_negative}};
+  for (const Variable& v : scatter_variables()) list.push_back(v);
+  return list;
 }
 
-JohnsonHolmquist::Strength JohnsonHolmquist::strength(double pressure, double rate) const {
+std::vector<Variable> JohnsonHolmquist::variables() const {
+  std::vector<Variable> list = all_variables();
+  if (!parameters_.scatter) list.pop_back();
+  return list;
+}
+
+JohnsonHolmquist::Strength JohnsonHolmquist::strength(double pressure, double tension, double rate) const {
   const Parameters& p = parameters_;
   const double scale = 1.5 * (p.HEL - p.PHEL),
                faster = 1.0 + p.C * std::log(std::max(rate / p.reference_rate, 1.0));
-  const double above_tension = (pressure + p.T) / p.PHEL, compressed = pressure / p.PHEL;
+  const double above_tension = (pressure + tension) / p.PHEL, compressed = pressure / p.PHEL;
   return {
       above_tension > 0.0 ? scale * faster * p.A * std::pow(above_tension, p.N) : 0.0,
       compressed > 0.0 ? scale * std::min(faster * p.B * std::pow(compressed, p.M), p.fractured_limit) : 0.0};
 }
 
-double JohnsonHolmquist::fracture_strain(double pressure) const {
-  const double above_tension = (pressure + parameters_.T) / parameters_.PHEL;
+double JohnsonHolmquist::fracture_strain(double pressure, double tension) const {
+  const double above_tension = (pressure + tension) / parameters_.PHEL;
   return above_tension > 0.0 ? parameters_.D1 * std::pow(above_tension, parameters_.D2) : 0.0;
 }
 
@@ -146,7 +157,7 @@ double JohnsonHolmquist::equivalent_stress(const SymmetricTensor& elastic_strain
 }
 
 bool JohnsonHolmquist::fails_in_tension(const State& s, double pressure) const {
-  return s.damage < 1.0 && pressure < 0.0 && pressure <= -parameters_.T * (1.0 - s.damage);
+  return s.damage < 1.0 && pressure < 0.0 && pressure <= -tension(s) * (1.0 - s.damage);
 }
 
 /// A fracture under hydrostatic tension (Pa), which it sets free.
@@ -168,13 +179,13 @@ JohnsonHolmquist::Flow JohnsonHolmquist::flow(State& s, double trial, double rat
   double lost = 0.0;
   for (bool done = false; !done;) {
     const double P = pressure(s);
-    const Strength now = strength(P, rate);
+    const Strength now = strength(P, tension(s), rate);
     const double stress = trial - stiffness * f.plastic_strain, bears = J * now.at(s.damage);
     if (s.damage >= 1.0 || !(stress > bears)) {  // bulking may have raised the strength above the stress
       f.plastic_strain += std::max(stress - bears, 0.0) / stiffness;
       break;
     }
-    const double to_fracture = fracture_strain(P), grows = std::min(slice, 1.0 - s.damage);
+    const double to_fracture = fracture_strain(P, tension(s)), grows = std::min(slice, 1.0 - s.damage);
     const double slope = stiffness * to_fracture - J * (now.intact - now.fractured);
     const double wanted = slope > 0.0 ? (stress - bears) / slope : infinite;  // growth of damage
     done = wanted < grows;
@@ -209,7 +220,7 @@ void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double d
   const SymmetricTensor d = deviator(strain);
   const double rate = duration > 0.0 ? std::sqrt(contract(d, d) / 1.5) / duration : 0.0;
   const auto borne = [&](const State& at) {
-    return volume_ratio(at.elastic_strain) * strength(pressure(at), rate).at(at.damage);
+    return volume_ratio(at.elastic_strain) * strength(pressure(at), tension(at), rate).at(at.damage);
   };
   const State start = s;
   const auto stress_at = [&](double part) {
@@ -221,7 +232,7 @@ void JohnsonHolmquist::advance(State& s, const SymmetricTensor& strain, double d
   const double unlimited = unlimited_pressure(s);
   if (fails_in_tension(s, unlimited)) {
     // At the limit, unless the tension was beyond it to begin with.
-    const double before = -unlimited_pressure(start), limit = parameters_.T * (1.0 - s.damage);
+    const double before = -unlimited_pressure(start), limit = tension(s) * (1.0 - s.damage);
     const double at = reaches_zero(before - limit, -unlimited - limit);
     if (start.damage == 0.0) report.record(EventKind::damage, at, stress_at(at));
     open_in_tension(s, std::min(-unlimited, std::max(before, limit)), report);

@@ -6,6 +6,7 @@
 #include "materials/elasticity.hpp"
 #include "materials/law_state.hpp"
 #include "materials/registry.hpp"
+#include "materials/scatter.hpp"
 #include "schema/fields.hpp"
 
 namespace vitrum {
@@ -21,10 +22,11 @@ struct JohnsonHolmquistParameters {
   double C = 0.0;                                                    ///< of the logarithm of the rate
   double reference_rate = 1.0;                                       ///< 1/s
   double T = 0.0;                                                    ///< largest hydrostatic tension, Pa
-  double HEL = 0.0, PHEL = 0.0;  ///< Hugoniot elastic limit and the pressure there, Pa
-  double D1 = 0.0, D2 = 0.0;     ///< plastic strain to fracture
-  double K2 = 0.0, K3 = 0.0;     ///< equation of state, Pa
-  double beta = 1.0;             ///< share of the lost elastic energy that bulks
+  double HEL = 0.0, PHEL = 0.0;                 ///< Hugoniot elastic limit and the pressure there, Pa
+  double D1 = 0.0, D2 = 0.0;                    ///< plastic strain to fracture
+  double K2 = 0.0, K3 = 0.0;                    ///< equation of state, Pa
+  double beta = 1.0;                            ///< share of the lost elastic energy that bulks
+  std::optional<StrengthScatter> scatter = {};  ///< of T; none: every point is the same
 
   static schema::Fields<JohnsonHolmquistParameters> rows();
 };
@@ -37,8 +39,9 @@ class JohnsonHolmquist {
  public:
   using Parameters = JohnsonHolmquistParameters;
   struct State : LawState {
-    double damage = 0.0;   ///< 0: intact, 1: fractured
-    double bulking = 0.0;  ///< pressure that fracture has added, Pa
+    double damage = 0.0;           ///< 0: intact, 1: fractured
+    double bulking = 0.0;          ///< pressure that fracture has added, Pa
+    double strength_factor = 1.0;  ///< of T
   };
 
   JohnsonHolmquist(const ElasticParameters& elastic, const Parameters& parameters, double cell);
@@ -46,8 +49,12 @@ class JohnsonHolmquist {
   static std::optional<Contradiction> contradiction(const ElasticParameters& elastic,
                                                     const Parameters& parameters);
   static std::vector<Variable> all_variables();
-  std::vector<Variable> variables() const { return all_variables(); }
-  void members(auto& state, auto&& f) const { f(state.damage), f(state.bulking); }
+  std::vector<Variable> variables() const;
+  void members(auto& state, auto&& f) const {
+    f(state.damage), f(state.bulking);
+    if (parameters_.scatter) f(state.strength_factor);
+  }
+  const std::optional<StrengthScatter>& scatter() const { return parameters_.scatter; }
   std::optional<std::size_t> damage_column() const { return 0; }
   Moduli elastic() const { return elastic_; }
   double strain_scale() const { return parameters_.HEL / elastic_.p_wave(); }
@@ -60,15 +67,17 @@ class JohnsonHolmquist {
 
   /// Pressure of a state, Pa of the present area.
   double pressure(const State& state) const;
-  /// Equivalent stress that intact and fractured material bear at a pressure and a strain rate (1/s), Pa of
-  /// the present area.
+  /// Equivalent stress that intact and fractured material bear at a pressure, of those that bear a
+  /// hydrostatic tension (Pa, positive), and a strain rate (1/s), Pa of the present area.
   struct Strength {
     double intact, fractured;
     double at(double damage) const { return intact - damage * (intact - fractured); }
   };
-  Strength strength(double pressure, double rate) const;
-  /// Plastic strain that fractures intact material at a pressure.
-  double fracture_strain(double pressure) const;
+  Strength strength(double pressure, double tension, double rate) const;
+  /// Plastic strain that fractures such intact material at a pressure.
+  double fracture_strain(double pressure, double tension) const;
+  /// Largest hydrostatic tension of a point that is intact, Pa.
+  double tension(const State& state) const { return state.strength_factor * parameters_.T; }
 
  private:
   double equation_of_state(double mu) const;

@@ -9,6 +9,7 @@
 #include "materials/material_parameters.hpp"
 #include "materials/particle_columns.hpp"
 #include "materials/report.hpp"
+#include "materials/scatter.hpp"
 #include "materials/variable.hpp"
 
 namespace vitrum {
@@ -97,6 +98,9 @@ class Material {
   double damage(const PointState& state) const {
     return damage_column_ ? damage(state.variables[*damage_column_]) : 0.0;
   }
+  /// How its strength scatters: by `strength_factor`, the last of its variables, which whoever makes a point
+  /// draws; null: not.
+  virtual const StrengthScatter* scatter() const { return nullptr; }
   /// The same law as an ODE; null: it is taken in closed form under every local method.
   virtual const EventDriven* event_driven() const { return nullptr; }
 

@@ -46,7 +46,7 @@ std::span<const Component> all_columns() {
           list.push_back(std::move(column));
     };
     add(damage_variables()), add(plasticity_variables()), add(decohesion_variables());
-    add(averaged_rate_variables());
+    add(averaged_rate_variables()), add(scatter_variables());
     for (const RegisteredLaw& law : registered_laws()) add(law.variables);
     const Variable dissipated = dissipated_variable();
     add(std::span(&dissipated, 1));

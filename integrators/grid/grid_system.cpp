@@ -219,6 +219,8 @@ double GridSystem::book_driven(double t) {
   set_loads(t);
   const mpm::OfBoundaries held = mpm::boundary_velocities(system_);
   const double* mass = system_.grid.field(Field::mass);
+  const std::array<const double*, 2> momentum{system_.grid.field(Field::momentum_0),
+                                              system_.grid.field(Field::momentum_1)};
   double gained = 0.0, work = 0.0;
   for (std::size_t block = 0; block < system_.grid.blocks().size(); ++block) {
     if (!system_.grid.blocks()[block].constrained) continue;
@@ -228,8 +230,10 @@ double GridSystem::book_driven(double t) {
         if (by < 0) continue;
         const auto k = static_cast<std::size_t>(by);
         const double now = held[k][c], before = held_committed_[k][c], first = held_at_start_[k][c];
-        gained += 0.5 * mass[n] * (now - first) * (now + first);
-        work += 0.5 * mass[n] * (now - before) * (now + before);
+        // What particles have beyond the node's momentum at the start does work as well.
+        const double beyond = momentum[c][n] - mass[n] * first;
+        gained += (beyond + 0.5 * mass[n] * (now + first)) * (now - first);
+        work += (beyond + 0.5 * mass[n] * (now + before)) * (now - before);
         system_.record.impulses[2 * k + c] += mass[n] * (now - before);
       }
   }

@@ -52,6 +52,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
     return has_damage && crack_density > 0.0 ? damage_.damage(crack_density / crack_density_limit) : 0.0;
   }
   const EventDriven* event_driven() const { return &evolution_; }
+  const std::optional<StrengthScatter>& scatter() const { return damage_.scatter(); }
 
   // Elastic runs: the moduli depend on the crack density; a point with a plane is never elastic.
   static constexpr int elastic_column = has_damage ? 0 : -1;
@@ -71,6 +72,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   using Models::damage_;
   using Models::damage_at_once;
   using Models::damage_localisation;
+  using Models::damaging_strain;
   using Models::decohesion_;
   using Models::drucker_prager_;
   using Models::elastic_;
@@ -157,8 +159,10 @@ std::vector<Variable> CompositeClosedForm<D, Y, C>::variables() const {
   if constexpr (D) add(damage_variables());
   if constexpr (has_yield) add(plasticity_variables());
   if constexpr (C) add(decohesion_variables());
-  if constexpr (D)
+  if constexpr (D) {
     if (damage_.averages_rate()) add(averaged_rate_variables());
+    if (damage_.scatter()) add(scatter_variables());
+  }
   return list;
 }
 

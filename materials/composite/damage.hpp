@@ -1,9 +1,11 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "materials/elasticity.hpp"
+#include "materials/scatter.hpp"
 #include "schema/fields.hpp"
 
 namespace vitrum {
@@ -28,6 +30,7 @@ struct DamageParameters {
   double averaging_time = 0.0;                       ///< s; > 0: the rate is averaged over it
   bool volumetric = false;                           ///< eps_v is tr(e) instead of the mean strain tr(e)/3
   bool pressure_wave = false;                        ///< c is the speed of pressure waves instead of a bar's
+  std::optional<StrengthScatter> scatter = {};       ///< of the strength; none: every point is the same
 
   DamageRate rate() const {
     return fixed_rate > 0.0 ? DamageRate::fixed : averaging_time > 0.0 ? DamageRate::averaged : history;
@@ -77,6 +80,7 @@ class DamageLaw {
   }
 
   DamageRate rate() const { return parameters_.rate(); }
+  const std::optional<StrengthScatter>& scatter() const { return parameters_.scatter; }
   bool averages_rate() const { return parameters_.rate() == DamageRate::averaged; }
   /// Takes up the rates of an increment that begins, whatever its sign. max_rate: what enters eq. 7;
   /// mean_rate: the average, R' = (eps_v' - R) / averaging_time, of which an increment sees the end.

@@ -10,7 +10,7 @@ namespace vitrum {
 template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::damage_at_once(CompositeState& s, double fraction, PointReport& report) const {
   const double coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
-  double density = damage_.target(damage_.strain_of(trace(s.elastic_strain)), coefficient);
+  double density = damage_.target(damaging_strain(s), coefficient);
   if (!(density > s.crack_density * (1.0 + tolerance::written))) return false;
   bool localises = false;
   if constexpr (C) {

@@ -21,6 +21,8 @@ schema::Fields<DamageParameters> DamageParameters::rows() {
       {"k", &P::k, "1/m^3", positive, "flaw density parameter k, eq. 7", required},
       {"m", &P::m, "1", {1.0, 100.0, true}, "exponent m of the mean strain, eq. 7", required},
       {"rate_floor", &P::rate_floor, "1/s", positive, "least strain rate that enters eq. 7"},
+      {"scatter", &P::scatter, StrengthScatter::table(),
+       "flaws: the strength s of each point, by k / s^m in place of k; absent: none"},
   };
 }
 

@@ -54,6 +54,11 @@ bool CompositeClosedForm<D, Y, C>::mark_inelastic(const ParticleColumns& p, std:
     marks[k] = mark;
   }
   if constexpr (D) {
+    if (law.scatter()) {
+      const double* strength_factor = variable(p.start_variables.size() - 2);  // before `dissipated`
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k) strain[k] /= strength_factor[k];
+    }
     law.raise(strain, power, size);
 #pragma GCC ivdep
     for (std::size_t k = 0; k < size; ++k) {

@@ -38,6 +38,7 @@ class CompositeEvolution final : public CompositeModes,
   using Models::damage_;
   using Models::damage_at_once;
   using Models::damage_localisation;
+  using Models::damaging_strain;
   using Models::decohesion_;
   using Models::elastic_;
   using Models::enter_separated;

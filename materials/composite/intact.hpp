@@ -72,8 +72,7 @@ auto CompositeClosedForm<D, Y, C>::state_along(const Leg& leg, double fraction) 
   s.elastic_strain += fraction * leg.strain;
   if constexpr (D)
     if (leg.tension)
-      s.crack_density = std::max(s.crack_density,
-                                 damage_.target(damage_.strain_of(trace(s.elastic_strain)), leg.coefficient));
+      s.crack_density = std::max(s.crack_density, damage_.target(damaging_strain(s), leg.coefficient));
   if constexpr (Y == Yielding::von_mises) {
     f.plastic_dissipation = flow(s, secant(leg.tension, s), 0.0);
   } else if constexpr (Y == Yielding::drucker_prager) {
@@ -271,9 +270,10 @@ double CompositeClosedForm<D, Y, C>::damage_dissipation(const Leg& leg, const Co
   const double start_trace = trace(leg.start.elastic_strain), change = trace(leg.strain);
   const double x0 = leg.start.crack_density / crack_density_limit;
   const double x1 = end.crack_density / crack_density_limit;
-  const double at_start = damage_.target(damage_.strain_of(start_trace), leg.coefficient);
+  const double at_start = damage_.target(damaging_strain(leg.start), leg.coefficient);
   const auto fraction_at = [&](double density) {
-    const double at = damage_.trace_of(damage_.strain_at(density, leg.coefficient));
+    const double at =
+        damage_.trace_of(leg.start.strength_factor * damage_.strain_at(density, leg.coefficient));
     return std::clamp((at - start_trace) / change, 0.0, end_fraction);
   };
   // Growth begins where eq. 7 catches up with the crack density held so far, and ends at its cap.

@@ -38,8 +38,10 @@ class CompositeModels {
       f(s.decohesion), f(s.opening_n), f(s.opening_t), f(s.normal);
       f(s.effective_length), f(s.cohesive_strength);
     }
-    if constexpr (has_damage)
+    if constexpr (has_damage) {
       if (damage_.averages_rate()) f(s.mean_rate);
+      if (damage_.scatter()) f(s.strength_factor);
+    }
   }
   /// Moduli that give the stress of a state (damaged bulk modulus only under tension).
   Moduli secant_moduli(const CompositeState& s) const { return secant(trace(s.elastic_strain) > 0.0, s); }
@@ -69,6 +71,12 @@ class CompositeModels {
       m.bulk = is_damaged && strain_trace > 0.0 ? damaged.bulk : m.bulk;
     }
     return m;
+  }
+
+  /// eps_v as it enters eq. 7. A point that is f times as strong damages at f times the strain: its k is that
+  /// of the law over f^m.
+  double damaging_strain(const CompositeState& s) const {
+    return damage_.strain_of(trace(s.elastic_strain)) / s.strength_factor;
   }
 
   // damage_at_once.hpp

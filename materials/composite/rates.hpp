@@ -31,8 +31,9 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
   if constexpr (D) {
     if (mode.damaging) {
       const double t = trace(s.elastic_strain);
-      r.crack_density = damage_.strain_of(damage_.target_slope(damage_.strain_of(t), mode.coefficient) *
-                                          trace(path.strain));
+      r.crack_density =
+          damage_.strain_of(damage_.target_slope(damaging_strain(s), mode.coefficient) * trace(path.strain)) /
+          s.strength_factor;
       const double x_rate = r.crack_density / crack_density_limit;
       const Moduli slope = damage_.moduli_derivative(std::min(s.crack_density / crack_density_limit, 1.0));
       const SymmetricTensor d = deviator(s.elastic_strain);
@@ -169,8 +170,10 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
       g.add(CompositeGuard::exhausted, s.crack_density / crack_density_limit - 1.0);
       if constexpr (C) g.add(CompositeGuard::localisation, -damage_localisation(s));
     } else if (intact && mode.tension && trace(path.strain) > 0.0 && s.crack_density < crack_density_limit) {
-      g.add(CompositeGuard::damage,
-            (damage_.strain_of(t) - damage_.strain_at(s.crack_density, mode.coefficient)) * per_size);
+      g.add(
+          CompositeGuard::damage,
+          (damage_.strain_of(t) - s.strength_factor * damage_.strain_at(s.crack_density, mode.coefficient)) *
+              per_size);
     }
   }
   const bool needs_rates = mode.flowing || (mode.decohering() && !mode.viscous);

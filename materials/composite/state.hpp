@@ -16,6 +16,7 @@ struct CompositeState : LawState {
   double effective_length = 0.0;   ///< L_e, m, eq. 12; 0: not localised
   double cohesive_strength = 0.0;  ///< tau_np, Pa, eq. 18
   double mean_rate = 0.0;          ///< rate of eps_v averaged over a time, 1/s
+  double strength_factor = 1.0;    ///< by which eps_v is divided before it enters eq. 7
 };
 
 constexpr bool is_localised(const CompositeState& s) {

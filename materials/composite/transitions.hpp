@@ -181,7 +181,7 @@ void CompositeEvolution<D, Y, C>::select_damage(CompositeMode& mode, CompositeSt
     return;
   }
   mode.coefficient = damage_.coefficient(damage_.effective_rate(s.max_rate));
-  const double target = damage_.target(damage_.strain_of(trace(s.elastic_strain)), mode.coefficient);
+  const double target = damage_.target(damaging_strain(s), mode.coefficient);
   const bool reached = mode.damaging || target >= s.crack_density * (1.0 - tolerance::rounding);
   const bool grows = reached && change > 0.0 && s.crack_density < crack_density_limit;
   if (grows && s.crack_density == 0.0) report.record(EventKind::damage, fraction, stress(s));

@@ -43,7 +43,7 @@ nlohmann::ordered_json derived(const Scene& scene, const System& system, const S
   json bodies = json::object();
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
-    const ShapeMeasures exact = measures(scene.bodies[n].shape, scene.geometry);
+    const ShapeMeasures exact = measures(scene.bodies[n], scene.geometry);
     double mass = 0.0;
     for (const double m : body.particles.mass) mass += m * whole;
     bodies[body.name] = {
@@ -112,8 +112,7 @@ std::string readable(const std::string& file, const Scene& scene, const System& 
     text += fmt::format(
         "#   while increments are elastic; about {} if none were (measured now with constitutive.method = "
         "\"{}\")\n",
-        duration_text(facts["seconds_most"].get<double>()),
-        name_of(scene.constitutive.method));
+        duration_text(facts["seconds_most"].get<double>()), name_of(scene.constitutive.method));
   for (const Body& body : system.bodies)
     if (scene.constitutive.method != LocalMethod::closed_form && body.material->event_driven() == nullptr)
       text += fmt::format(

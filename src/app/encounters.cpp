@@ -59,7 +59,7 @@ double particle_gap(const Body& a, const Box& around_a, const Body& b, const Box
 
 std::size_t common_nodes(const Scene& scene, const System& system, std::size_t a, std::size_t b) {
   constexpr double reach = 3.0;  // cells: more than any shape function's
-  const Box at_b = grown(bounds(scene.bodies[b].shape), reach * scene.cell);
+  const Box at_b = grown(bounds(scene.bodies[b]), reach * scene.cell);
   return count_common(nodes_of(system, system.bodies[a], at_b), nodes_of(system, system.bodies[b], at_b));
 }
 
@@ -68,8 +68,7 @@ std::vector<std::vector<double>> gaps(const Scene& scene) {
   std::vector<std::vector<double>> table(scene.bodies.size());
   for (std::size_t a = 0; a < table.size(); ++a) {
     table[a].assign(table.size(), 0.0);
-    for (std::size_t b = a + 1; b < table.size(); ++b)
-      table[a][b] = gap(scene.bodies[a].shape, scene.bodies[b].shape);
+    for (std::size_t b = a + 1; b < table.size(); ++b) table[a][b] = gap(scene.bodies[a], scene.bodies[b]);
   }
   return table;
 }
@@ -127,7 +126,7 @@ constexpr Box anywhere{{-intervals::infinite, -intervals::infinite},
 /// What a body or a boundary sweeps over until the end.
 Box way_of(const Scene& scene, const BodyDefinition& body) {
   if (varies(scene, body)) return anywhere;
-  return swept(bounds(body.shape), body.velocity, scene.end - scene.start);
+  return swept(bounds(body), body.velocity, scene.end - scene.start);
 }
 Box way_of(const Scene& scene, const BoundaryDefinition& wall) {
   if (wall.moves && varies(scene, wall)) return anywhere;
@@ -230,8 +229,8 @@ StartGeometry start_geometry(const Scene& scene, const System& system) {
   const double reach = (near_in_cells + 2.0) * scene.cell;
   for (const auto& [a, b] : pairs)
     geometry.encounters.push_back({a, b, table[a][b],
-                                   particle_gap(system.bodies[a], bounds(scene.bodies[a].shape),
-                                                system.bodies[b], bounds(scene.bodies[b].shape), reach),
+                                   particle_gap(system.bodies[a], bounds(scene.bodies[a]), system.bodies[b],
+                                                bounds(scene.bodies[b]), reach),
                                    common_nodes(scene, system, a, b)});
   for (const BoundaryDefinition& wall : scene.boundaries) {
     std::set<NodeIndex> held;

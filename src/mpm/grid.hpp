@@ -183,6 +183,7 @@ class Grid {
   const double* field(Field f) const { return fields_[static_cast<std::size_t>(f)].data(); }
   /// Has room for momenta and forces from now on.
   void keep_sums();
+  bool keeps_sums() const { return keeps_sums_; }
   /// Has room for centroids from now on.
   void keep_centroids();
   /// The data of a tile. Tiles may share it that a sweep does not need at a time (provide_tile_data).

@@ -80,7 +80,9 @@ double external_power(const System& system, std::size_t block, const BlockVector
                       Field to) {
   const Grid& grid = system.grid;
   const double* mass = grid.field(Field::mass) + block * block_nodes;
-  const BlockVector v = block_vector(grid, block, from), w = block_vector(grid, block, to);
+  const BlockVector v = block_vector(grid, block, from), w = block_vector(grid, block, to),
+                    momentum =
+                        grid.keeps_sums() ? block_vector(grid, block, Field::momentum_0) : BlockVector{};
   double power = 0.0;
   for (std::size_t c = 0; c < 2; ++c)
     for (std::size_t n = 0; n < block_nodes; ++n) {
@@ -89,6 +91,7 @@ double external_power(const System& system, std::size_t block, const BlockVector
       if (const std::int16_t by = grid.constraint(c, block * block_nodes + n); by >= 0) {
         const double a = grid.boundaries()[static_cast<std::size_t>(by)].acceleration[c];
         power -= (force[c][n] + weight - mass[n] * a) * mean;
+        if (a != 0.0) power += a * (momentum[c][n] - mass[n] * v[c][n]);
       }
     }
   return power;

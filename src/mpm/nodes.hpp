@@ -17,8 +17,9 @@ void project_block(Grid& grid, std::size_t block, const BlockVector& momentum, b
 void accelerate_block(Grid& grid, std::size_t block, const BlockVector& force,
                       const std::array<double, 2>& gravity, double duration);
 /// Work (J per radian or metre, over a second) of gravity on a block's nodes and of the reaction m a - f - m
-/// g that keeps a node at its prescribed velocity, at the mean of two nodal velocities. Held (zero-velocity)
-/// nodes and the axis do no work.
+/// g that keeps a node at its prescribed velocity, at the mean of two nodal velocities; of the acceleration,
+/// which is the particles', at theirs: they need not have the velocity of the node, and where a wall has
+/// started with a jump they have not. Held (zero-velocity) nodes and the axis do no work.
 double external_power(const System& system, std::size_t block, const BlockVector& force, Field from,
                       Field to);
 

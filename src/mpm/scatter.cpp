@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mpm/between_centroids.hpp"
+#include "mpm/loads.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/stencil.hpp"
 #include "mpm/transfer.hpp"
@@ -228,7 +229,13 @@ void move_block(const Pass& pass, std::size_t block) {
   std::array<double*, P::width> to{};
   for (std::size_t c = 0; c < P::width; ++c) to[c] = sums[c];
   sum_block<kind, P>(grid, block, to);
-  if constexpr (P::momentum) project_block(grid, block, {sums[0], sums[1]});
+  if constexpr (P::momentum) {
+    project_block(grid, block, {sums[0], sums[1]});
+    if (grid.keeps_sums() && grid.blocks()[block].constrained)
+      for (std::size_t c = 0; c < 2; ++c)
+        std::copy_n(sums[c], block_nodes,
+                    grid.field(c == 0 ? Field::momentum_0 : Field::momentum_1) + block * block_nodes);
+  }
   if constexpr (P::force) {
     const BlockVector force{sums[P::width - 2], sums[P::width - 1]};
     accelerate_block(grid, block, force, system.gravity, pass.duration);
@@ -258,7 +265,8 @@ Pass pass_of(System& system, Nodes until) {
     };
     pass.block = until == Nodes::sums ? store_sums<kind, P> : move_block<kind, P>;
   });
-  if (until == Nodes::sums) system.grid.keep_sums();
+  // What a boundary that changes speed does depends on the momenta that it meets (external_power).
+  if (until == Nodes::sums || drives(system)) system.grid.keep_sums();
   return pass;
 }
 

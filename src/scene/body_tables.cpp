@@ -63,6 +63,89 @@ const Table& ring_table() {
   return table;
 }
 
+const Table& image_table() {
+  static const Table table = in_one_line(table_of<Image>(
+      "Shape `image` of a body",
+      "The squares of those pixels of a picture whose grey level lies in an interval, for patterns like "
+      "crazy "
+      "paving: several bodies may take one picture, each other levels. Masses are those of the pixels, "
+      "exactly; surfaces are the sides of pixels, so that slopes are stairs.",
+      {{"file", &Image::file, "PNG picture beside this file", required},
+       {"corner", &Image::corner, "m", intervals::finite, "lower left corner of the picture"},
+       {"width", &Image::width, "m", intervals::positive, "of the picture; pixels are squares", required},
+       {"grey",
+        &Image::grey,
+        "1",
+        {0.0, 255.0},
+        "lowest and highest grey level of the body, both included; 0 is black, 255 white",
+        required}}));
+  return table;
+}
+
+/// One shape, of those that are not made of others.
+template <class Owner>
+Fields<Owner> shape_rows() {
+  return {Field<Owner>::template alternative<Box>("box", &Owner::shape, body_box_table(),
+                                                  "shape (exactly one of these)"),
+          Field<Owner>::template alternative<Disk>("disk", &Owner::shape, disk_table(), "shape"),
+          Field<Owner>::template alternative<Ring>("ring", &Owner::shape, ring_table(),
+                                                   "shape: between two circles"),
+          Field<Owner>::template alternative<Polygon>("polygon", &Owner::shape, "m", intervals::finite,
+                                                      "shape: closed by itself, not self-intersecting")
+              .at_least(3)
+              .expecting("a list of three or more vertices, each 2 finite numbers (m), or {csv = \"FILE\"}"),
+          Field<Owner>::template alternative<Image>("image", &Owner::shape, image_table(),
+                                                    "shape: pixels of a picture")};
+}
+std::vector<std::string> shape_keys(std::size_t count) {
+  return {shape_names.begin(), shape_names.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+const Table& hole_table() {
+  static const Table table = [] {
+    Table t = in_one_line(table_of<Region>(
+        "`hole` of a body", "A shape that is cut out; it may reach beyond the body.", shape_rows<Region>()));
+    t.alternatives = {{shape_keys(simple_shapes), "shape"}};
+    return t;
+  }();
+  return table;
+}
+
+template <class Owner>
+Field<Owner> hole_row() {
+  return Field<Owner>("hole", &Owner::holes, hole_table(), "what is cut out of the shape; absent: nothing")
+      .expecting("a shape {disk = {..}}, or a list of them");
+}
+
+const Table& part_table() {
+  static const Table table = [] {
+    Fields<Region> rows = shape_rows<Region>();
+    rows.push_back(hole_row<Region>());
+    Table t = in_one_line(table_of<Region>("Part of a `union` of a body",
+                                           "Parts may overlap; what they share counts once.", rows));
+    t.alternatives = {{shape_keys(simple_shapes), "shape"}};
+    return t;
+  }();
+  return table;
+}
+
+Field<BodyDefinition> union_row() {
+  using B = BodyDefinition;
+  auto row = Field<B>::alternative<Union>("union", &B::shape, part_table(),
+                                          "shape: several together, each with its own holes");
+  row.shape = {schema::Kind::tables};
+  row.open = [](void* body, const std::string&) -> void* {
+    Shape& shape = static_cast<B*>(body)->shape;
+    if (!std::holds_alternative<Union>(shape)) shape.emplace<Union>();
+    return &std::get<Union>(shape).parts.emplace_back();
+  };
+  row.look = [](const void* body, std::size_t n) -> const void* {
+    const auto* together = std::get_if<Union>(&static_cast<const B*>(body)->shape);
+    return together != nullptr && n < together->parts.size() ? &together->parts[n] : nullptr;
+  };
+  return std::move(row).expecting("a list of shapes [{box = {..}}, {disk = {..}}, ..]");
+}
+
 const Table& perturbation_table() {
   static const Table table = in_one_line(table_of<Perturbation>(
       "`perturbation` of a body",
@@ -140,32 +223,32 @@ const Table& probe_box_table() {
 const Table& body_table() {
   using B = BodyDefinition;
   static const Table table = [] {
-    Table t = table_of<B>(
-        "[[body]]", "One table for each body, with exactly one shape.",
-        {{"name", &B::name, "unique; names the body in results and messages", required},
-         {"material", &B::material, "NAME of a [material.NAME]", required},
-         Field<B>::alternative<Box>("box", &B::shape, body_box_table(), "shape (exactly one of the four)"),
-         Field<B>::alternative<Disk>("disk", &B::shape, disk_table(), "shape"),
-         Field<B>::alternative<Ring>("ring", &B::shape, ring_table(), "shape: between two circles"),
-         Field<B>::alternative<Polygon>("polygon", &B::shape, "m", intervals::finite,
-                                        "shape: closed by itself, not self-intersecting")
-             .expecting("a list of three or more vertices, each 2 finite numbers (m), or {csv = \"FILE\"}"),
-         {"particles_per_cell", &B::particles_per_cell, schema::OneOf{{1, 4, 9, 16}},
-          "n x n particles in each cell"},
-         Field<B>("velocity", &B::velocity, "m/s", intervals::finite, "initial velocity at the origin")
-             .over_place(),
-         {"velocity_gradient", &B::velocity_gradient, "1/s", intervals::finite,
-          "initial velocity = `velocity` + gradient x position"},
-         Field<B>("stress", &B::stress, "Pa", intervals::finite,
-                  "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
-             .over_place(),
-         {"relax", &B::relax,
-          "before the start, find the stress nearest to that given which is in equilibrium under the loads "
-          "that "
-          "act then, elastically; nothing moves"},
-         {"perturbation", &B::perturbation, perturbation_table(),
-          "random displacements of the particles, for ensembles; absent: none"}});
-    t.alternatives = {{{shape_names.begin(), shape_names.end()}, "shape"}};
+    Fields<B> rows{{"name", &B::name, "unique; names the body in results and messages", required},
+                   {"material", &B::material, "NAME of a [material.NAME]", required}};
+    const Fields<B>
+        shapes = shape_rows<B>(),
+        others{
+            union_row(),
+            hole_row<B>(),
+            {"particles_per_cell", &B::particles_per_cell, schema::OneOf{{1, 4, 9, 16}},
+             "n x n particles in each cell"},
+            Field<B>("velocity", &B::velocity, "m/s", intervals::finite, "initial velocity at the origin")
+                .over_place(),
+            {"velocity_gradient", &B::velocity_gradient, "1/s", intervals::finite,
+             "initial velocity = `velocity` + gradient x position"},
+            Field<B>("stress", &B::stress, "Pa", intervals::finite,
+                     "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
+                .over_place(),
+            {"relax", &B::relax,
+             "before the start, find the equilibrium of the stress under the loads that act then: particles "
+             "move and "
+             "strain, elastically and with no velocity"},
+            {"perturbation", &B::perturbation, perturbation_table(),
+             "random displacements of the particles, for ensembles; absent: none"}};
+    rows.insert(rows.end(), shapes.begin(), shapes.end());
+    rows.insert(rows.end(), others.begin(), others.end());
+    Table t = table_of<B>("[[body]]", "One table for each body, with exactly one shape.", rows);
+    t.alternatives = {{shape_keys(shape_names.size()), "shape"}};
     return t;
   }();
   return table;

@@ -74,7 +74,7 @@ void build_contact(const Scene& scene, System& system) {
   std::vector<std::vector<mpm::Patch>> patches;
   for (std::size_t b = 0; b < system.bodies.size(); ++b) {
     system.bodies[b].field = static_cast<std::int32_t>(b);
-    patches.push_back(surface_patches(scene.bodies[b].shape, scene.geometry, system.bodies[b]));
+    patches.push_back(surface_patches(scene.bodies[b], scene.geometry, system.bodies[b]));
     for (std::size_t a = 0; a <= b; ++a) {
       const Body &one = system.bodies[a], &other = system.bodies[b];
       if (a == b && !(in_pieces && may_break(other))) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <system_error>
 
 #include "integrators/grid/relaxation.hpp"
@@ -81,18 +82,18 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
   const bool axisymmetric = scene.geometry == Geometry::axisymmetric;
   // Particles are numbered with 32 bits; far beyond, seeding alone would not end.
   constexpr double most = 4.0e9;
-  if (const double count = most_seeds(definition.shape, scene.cell, per_side); count > most)
+  if (const double count = most_seeds(definition, scene.cell, per_side); count > most)
     throw InputError(
         fmt::format("{}: its shape takes up to {:.3g} particles with cells of {} m and {} particles "
                     "per cell; expected at most {:g}",
                     place, count, scene.cell, definition.particles_per_cell, most));
   // The grid counts cells in 32 bits; products of lengths must not overflow.
   const double farthest = std::min(2.0e9 * scene.cell, 1.0e100);
-  if (const double found = reach(definition.shape); !(found < farthest))
+  if (const double found = reach(definition); !(found < farthest))
     throw InputError(
         fmt::format("{}: its shape reaches {:g} m from an axis of coordinates; expected less than {:g} m",
                     place, found, farthest));
-  const std::vector<Seed> seeds = seed_shape(definition.shape, scene.cell, per_side, scene.geometry);
+  const std::vector<Seed> seeds = seed_shape(definition, scene.cell, per_side, scene.geometry);
   if (seeds.empty())
     throw InputError(
         fmt::format("{}: its shape is smaller than a quarter of a particle's square with cells of {} m "
@@ -111,6 +112,7 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
   const std::vector<Vector2> shifts =
       displacements(definition.perturbation.value_or(Perturbation{}), scene.cell, p.size);
   const double density = body.material->density();
+  const StrengthScatter* scatter = body.material->scatter();
   for (std::size_t i = 0; i < p.size; ++i) {
     const Vector2& x = seeds[i].position;
     if (axisymmetric && !(x[0] + shifts[i][0] > 0.0))
@@ -125,6 +127,12 @@ Body make_body(const Scene& scene, std::size_t index, std::shared_ptr<const Mate
     }
     p.mass[i] = density * seeds[i].area * (axisymmetric ? x[0] : 1.0);
     if (over_place.has_stress()) state = body.material->start(over_place.stress(x, stress));
+    if (scatter != nullptr) {
+      constexpr double whole = 2.0 * std::numbers::pi;  // what the scene holds a radian of
+      const double volume = seeds[i].area * (axisymmetric ? whole * x[0] : 1.0);
+      state.variables[*body.material->column(StrengthScatter::column)] =
+          draw_strength_factor(*scatter, volume, index, i);
+    }
     mpm::put_point(state, body, i);
     p.identity[i] = static_cast<std::uint32_t>(i);
   }

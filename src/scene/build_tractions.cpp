@@ -31,31 +31,45 @@ bool is_inside(const Box& box, const Vector2& x, double slack) {
   return inside;
 }
 
-/// Where an edge is cut: into pieces of about a spacing, and at the sides of a box.
-std::vector<double> cuts(const Edge& edge, const Box& box, double spacing) {
+/// Where an edge is cut: into pieces of about a spacing, and where what is loaded ends.
+std::vector<double> cuts(const Edge& edge, const TractionDefinition& loaded, double spacing) {
   std::vector<double> list;
   const int count = edge.pieces(spacing);
   for (int k = 0; k <= count; ++k) list.push_back(static_cast<double>(k) / count);
-  for (std::size_t c = 0; c < 2; ++c)
-    for (const double side : {box.min[c], box.max[c]})
-      for (const double s : edge.crossings(c, side))
-        if (s > 0.0 && s < 1.0) list.push_back(s);
+  const auto add = [&list](const std::vector<double>& places) {
+    for (const double s : places)
+      if (s > 0.0 && s < 1.0) list.push_back(s);
+  };
+  for (std::size_t c = 0; c < 2 && loaded.box; ++c)
+    for (const double side : {loaded.box->min[c], loaded.box->max[c]}) add(edge.crossings(c, side));
+  if (loaded.side) add(edge.corners());
   std::sort(list.begin(), list.end());
   return list;
 }
 
-std::vector<mpm::LoadedPoint> points_in(const Box& box, const Shape& shape, bool axisymmetric,
-                                        const Body& body) {
+/// Whether the place of an edge is on a side. Normals halfway between two sides are those of top and bottom.
+bool is_on(const Edge& edge, double s, Side side) {
+  if (side == Side::inner || side == Side::outer) return edge.inner() == (side == Side::inner);
+  constexpr double halfway = 1e-9;
+  const double normal = edge.normal(s), x = std::cos(normal), y = std::sin(normal);
+  const bool upright = std::abs(y) >= std::abs(x) - halfway;
+  if (side == Side::top || side == Side::bottom) return upright && (y > 0.0) == (side == Side::top);
+  return !upright && (x > 0.0) == (side == Side::right);
+}
+
+std::vector<mpm::LoadedPoint> loaded_points(const TractionDefinition& loaded, const Region& region,
+                                            bool axisymmetric, const Body& body) {
   const double spacing = 2.0 * body.particle_half_size;
   const NearestParticle nearest(body.particles, spacing);
   const auto& x = body.particles.position;
   std::vector<mpm::LoadedPoint> points;
-  for (const Edge& edge : edges_of(shape, axisymmetric)) {
-    const std::vector<double> at = cuts(edge, box, spacing);
+  for (const Edge& edge : edges_of(region, axisymmetric)) {
+    const std::vector<double> at = cuts(edge, loaded, spacing);
     for (std::size_t k = 1; k < at.size(); ++k) {
       const double from = at[k - 1], part = at[k] - from;
       const Vector2 middle = edge.place(from + 0.5 * part);
-      if (!(part > 0.0) || !is_inside(box, middle, 1e-9 * spacing)) continue;
+      if (!(part > 0.0) || (loaded.box && !is_inside(*loaded.box, middle, 1e-9 * spacing))) continue;
+      if (loaded.side && !is_on(edge, from + 0.5 * part, *loaded.side)) continue;
       if (axisymmetric && !(middle[0] > 1e-9 * spacing)) continue;
       const std::uint32_t carrier = nearest.to(middle);
       for (const auto& [node, weight] : rule) {
@@ -96,13 +110,14 @@ void build_tractions(const Scene& scene, System& system) {
     for (std::size_t c = 0; definition.vector && c < 2; ++c)
       traction.vector[c] =
           load_function(scene, fmt::format("{}.vector.{}", path, c), (*definition.vector)[c]);
-    traction.points = points_in(definition.box, scene.bodies[traction.body].shape, system.axisymmetric,
-                                system.bodies[traction.body]);
+    traction.points = loaded_points(definition, scene.bodies[traction.body], system.axisymmetric,
+                                    system.bodies[traction.body]);
     if (traction.points.empty())
-      throw InputError(
-          fmt::format("{}: found nothing of the surface of body '{}' in it, expected a box that "
-                      "holds a part of it at the start",
-                      scene.at(path + ".box"), definition.body));
+      throw InputError(fmt::format(
+          "{}: found nothing of the surface of body '{}' {}, expected a {} that holds a part of it "
+          "at the start",
+          scene.at(path + (definition.box ? ".box" : ".side")), definition.body,
+          definition.box ? "in it" : "there", definition.box ? "box" : "side"));
     list.push_back(std::move(traction));
   }
   system.tractions = std::make_shared<mpm::Tractions>(system, std::move(list));

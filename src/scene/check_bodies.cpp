@@ -8,9 +8,11 @@
 
 #include "scene/checks.hpp"
 #include "scene/choices.hpp"
+#include "scene/input_error.hpp"
 #include "scene/polygon_check.hpp"
 #include "scene/shapes.hpp"
 #include "scene/suggestion.hpp"
+#include "scene/surface_edges.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::scene {
@@ -42,16 +44,29 @@ void check_polygon(const TableView& body, const Polygon& polygon) {
                   fault));
 }
 
+void check_image(const TableView& table, const Image& image) {
+  if (!(image.grey[0] <= image.grey[1]))
+    return table.fail("grey", "the lowest level, then one that is not less");
+  const auto [least, most] = std::ranges::minmax(image.greys->levels);
+  const auto within = [&](unsigned char level) { return level >= image.grey[0] && level <= image.grey[1]; };
+  if (std::ranges::none_of(image.greys->levels, within))
+    table.report("grey",
+                 fmt::format("found no pixel of such a level in '{}', expected some (they are from {} to {})",
+                             image.file, least, most));
+}
+
 void check_shape(const TableView& body, const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) check_box(*body.table("box"), *box);
   if (const auto* ring = std::get_if<Ring>(&shape)) check_ring(*body.table("ring"), *ring);
   if (const auto* polygon = std::get_if<Polygon>(&shape)) check_polygon(body, *polygon);
+  if (const auto* image = std::get_if<Image>(&shape)) check_image(*body.table("image"), *image);
 }
 
 double least_radius(const Shape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return box->min[0];
   if (const auto* disk = std::get_if<Disk>(&shape)) return disk->centre[0];
   if (const auto* ring = std::get_if<Ring>(&shape)) return ring->centre[0];
+  if (const auto* image = std::get_if<Image>(&shape)) return image->corner[0];
   const auto& vertices = std::get<Polygon>(shape).vertices;
   return std::ranges::min(vertices, {}, [](const Vector2& v) { return v[0]; })[0];
 }
@@ -79,7 +94,7 @@ void check_overlap(const TableView& table, const BodyDefinition& body, const Bod
                    double cell) {
   if (!(cell > 0.0)) return;  // reported
   const double spacing = cell / std::sqrt(body.particles_per_cell);
-  const auto common = common_point(body.shape, other.shape, 0.5 * spacing, 1e-6 * spacing);
+  const auto common = common_point(body, other, 0.5 * spacing, 1e-6 * spacing);
   if (!common) return;
   table.report(
       shape_names[body.shape.index()],
@@ -87,18 +102,51 @@ void check_overlap(const TableView& table, const BodyDefinition& body, const Bod
                   other.name, (*common)[0], (*common)[1]));
 }
 
-/// Whether a body has one shape, and nothing has been reported of it.
-bool has_shape(const TableView& table, const BodyDefinition& body) {
+/// Whether a body, or a part of it, has one shape, and nothing has been reported of it or its holes.
+bool has_shape(const TableView& table, const Region& body) {
   const auto given = std::ranges::count_if(shape_names, [&](std::string_view key) { return table.has(key); });
   const std::string_view key = shape_names[body.shape.index()];
-  return given == 1 && table.has(key) && table.sound(key);
+  return given == 1 && table.has(key) && table.sound(key) && table.sound("hole");
+}
+
+/// Whether what is cut out of a shape is cut out of it.
+void check_hole(const TableView& table, const TableView& hole_table, const Region& region,
+                const Region& hole) {
+  const Box box = bounds(hole);
+  const double size = std::min(box.max[0] - box.min[0], box.max[1] - box.min[1]);
+  if (!common_point(Region(region.shape), hole, 0.05 * size, 1e-6 * size))
+    hole_table.warn(shape_names[hole.shape.index()],
+                    fmt::format("found it outside '{}', expected it to cut something out",
+                                join_path(table.path(), shape_names[region.shape.index()])));
+}
+
+void check_region(const TableView& table, const Region& region, bool axisymmetric) {
+  if (!has_shape(table, region)) return;
+  if (const auto* together = std::get_if<Union>(&region.shape)) {
+    const std::vector<TableView> parts = table.tables("union");
+    for (std::size_t n = 0; n < parts.size(); ++n) check_region(parts[n], together->parts[n], axisymmetric);
+  } else {
+    check_shape(table, region.shape);
+    if (axisymmetric) check_axis(table, region.shape);
+  }
+  if (table.schema().find("hole") == nullptr) return;
+  const std::vector<TableView> holes = table.tables("hole");
+  for (std::size_t n = 0; n < holes.size(); ++n) {
+    if (has_shape(holes[n], region.holes[n])) check_shape(holes[n], region.holes[n].shape);
+    if (has_shape(table, region)) check_hole(table, holes[n], region, region.holes[n]);
+  }
+  if (!is_composed(region) || !has_shape(table, region)) return;
+  try {
+    edges_of(region, false);
+  } catch (const InputError& error) {
+    table.report(shape_names[region.shape.index()], error.what());
+  }
 }
 
 void check_body(const TableView& table, const BodyDefinition& body, const Scene& scene) {
   if (table.sound("name")) check_name(table, body.name);
   if (table.sound("material")) check_material(table, body, scene);
-  if (has_shape(table, body)) check_shape(table, body.shape);
-  if (has_shape(table, body) && scene.geometry == Geometry::axisymmetric) check_axis(table, body.shape);
+  check_region(table, body, scene.geometry == Geometry::axisymmetric);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ void check_tractions(const TableView& document, const Scene& scene) {
     if (table.has("body") && table.sound("body") && std::ranges::find(names, traction.body) == names.end())
       table.fail("body",
                  with_suggestion("a body of this file: " + schema::quoted_list(names), traction.body, names));
-    const Box& box = traction.box;
-    if (table.has("box") && table.sound("box") && !(box.min[0] <= box.max[0] && box.min[1] <= box.max[1]))
+    if (const auto& box = traction.box;
+        box && table.sound("box") && !(box->min[0] <= box->max[0] && box->min[1] <= box->max[1]))
       table.report("box", "found a component of 'max' less than that of 'min', expected none");
     if (table.sound("blast") && traction.blast) {
       const double distance = traction.blast->standoff / std::cbrt(traction.blast->charge);

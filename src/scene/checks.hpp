@@ -11,6 +11,8 @@ namespace vitrum::scene {
 
 void check_methods(const TableView& document, const Scene& scene);
 void check_materials(const TableView& document, const std::vector<MaterialParameters>& materials);
+/// Reads the pictures of the scene's shapes.
+void read_images(const TableView& document, Scene& scene);
 void check_bodies(const TableView& document, const Scene& scene);
 /// Names boundaries that have no name, too.
 void check_boundaries(const TableView& document, Scene& scene);

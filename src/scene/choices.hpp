@@ -37,7 +37,14 @@ inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated",
 inline constexpr std::array planes{Named{"in-plane", false}, Named{"all", true}};
 
 /// Keys of the shapes, in the order of Shape.
-inline constexpr std::array<std::string_view, 4> shape_names{"box", "disk", "ring", "polygon"};
+inline constexpr std::array<std::string_view, 6> shape_names{"box",     "disk",  "ring",
+                                                             "polygon", "image", "union"};
+/// Those that are one shape.
+inline constexpr std::size_t simple_shapes = 5;
+
+inline constexpr std::array sides{Named{"top", Side::top},     Named{"bottom", Side::bottom},
+                                  Named{"left", Side::left},   Named{"right", Side::right},
+                                  Named{"inner", Side::inner}, Named{"outer", Side::outer}};
 
 /// Components of a vector as `fix` names them.
 constexpr std::array<std::string_view, 2> component_names(Geometry geometry) {

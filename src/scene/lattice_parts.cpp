@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/shapes.hpp"
+#include "scene/surface_edges.hpp"
 
 namespace vitrum {
 namespace {
@@ -45,28 +46,18 @@ class EdgeWalk {
 
   /// A whole circle; sense -1: around a hole.
   void circle(const Vector2& centre, double radius, double sense) {
-    const auto at = [&](double angle) {
-      return Vector2{centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
-    };
     const Vector2 leftmost{centre[0] - radius, centre[1]};
-    std::vector<Cut> cuts{{-pi, leftmost}, {pi, leftmost}};
-    for (const double angle : {-0.5 * pi, 0.0, 0.5 * pi}) cuts.push_back({angle, at(angle)});
-    for (double x = std::floor(centre[0] - radius) + 1.0; x < centre[0] + radius; ++x) {
-      const double angle = std::acos(std::clamp((x - centre[0]) / radius, -1.0, 1.0));
-      for (const double a : {-angle, angle}) cuts.push_back(cut_at(a, at, 0, x));
-    }
-    for (double y = std::floor(centre[1] - radius) + 1.0; y < centre[1] + radius; ++y) {
-      const double angle = std::asin(std::clamp((y - centre[1]) / radius, -1.0, 1.0));
-      for (const double a : {angle, std::copysign(pi, angle) - angle}) cuts.push_back(cut_at(a, at, 1, y));
-    }
-    std::ranges::sort(cuts, {}, &Cut::at);
-    for (std::size_t n = 0; n + 1 < cuts.size(); ++n) {
-      const double middle = 0.5 * (cuts[n].at + cuts[n + 1].at), half = 0.5 * (cuts[n + 1].at - cuts[n].at);
-      Contribution& square = square_at(at(middle));
-      sense > 0.0 ? add_chord(square, cuts[n].point, cuts[n + 1].point)
-                  : add_chord(square, cuts[n + 1].point, cuts[n].point);
-      add_segment(square, centre, radius, middle, half, sense);
-    }
+    arc(centre, radius, sense, {-pi, leftmost}, {pi, leftmost});
+  }
+
+  /// An arc between two angles, which may pass pi, and its ends.
+  void arc_between(const Vector2& centre, double radius, double sense, double first, double angle,
+                   const Vector2& start, const Vector2& end) {
+    const double from = first - 2.0 * pi * std::floor((first + pi) / (2.0 * pi)), to = from + angle;
+    if (to <= pi) return arc(centre, radius, sense, {from, start}, {to, end});
+    const Vector2 leftmost{centre[0] - radius, centre[1]};
+    arc(centre, radius, sense, {from, start}, {pi, leftmost});
+    arc(centre, radius, sense, {-pi, leftmost}, {to - 2.0 * pi, end});
   }
 
   /// The parts of all squares, by row, then column.
@@ -79,6 +70,32 @@ class EdgeWalk {
     double at;
     Vector2 point;
   };
+
+  /// Within -pi and pi.
+  void arc(const Vector2& centre, double radius, double sense, const Cut& first, const Cut& last) {
+    const auto at = [&](double angle) {
+      return Vector2{centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
+    };
+    std::vector<Cut> cuts{first, last};
+    for (const double angle : {-0.5 * pi, 0.0, 0.5 * pi}) cuts.push_back({angle, at(angle)});
+    for (double x = std::floor(centre[0] - radius) + 1.0; x < centre[0] + radius; ++x) {
+      const double angle = std::acos(std::clamp((x - centre[0]) / radius, -1.0, 1.0));
+      for (const double a : {-angle, angle}) cuts.push_back(cut_at(a, at, 0, x));
+    }
+    for (double y = std::floor(centre[1] - radius) + 1.0; y < centre[1] + radius; ++y) {
+      const double angle = std::asin(std::clamp((y - centre[1]) / radius, -1.0, 1.0));
+      for (const double a : {angle, std::copysign(pi, angle) - angle}) cuts.push_back(cut_at(a, at, 1, y));
+    }
+    std::erase_if(cuts, [&](const Cut& c) { return c.at < first.at || c.at > last.at; });
+    std::ranges::sort(cuts, {}, &Cut::at);
+    for (std::size_t n = 0; n + 1 < cuts.size(); ++n) {
+      const double middle = 0.5 * (cuts[n].at + cuts[n + 1].at), half = 0.5 * (cuts[n + 1].at - cuts[n].at);
+      Contribution& square = square_at(at(middle));
+      sense > 0.0 ? add_chord(square, cuts[n].point, cuts[n + 1].point)
+                  : add_chord(square, cuts[n + 1].point, cuts[n].point);
+      add_segment(square, centre, radius, middle, half, sense);
+    }
+  }
 
   template <class Curve>
   static Cut cut_at(double at, const Curve& curve, std::size_t component, double line) {
@@ -174,11 +191,32 @@ void walk(EdgeWalk& edge, const Polygon& p, double scale) {
   }
 }
 
+void walk(EdgeWalk& walked, const std::vector<Edge>& edges, double scale) {
+  const auto scaled = [scale](const Vector2& x) { return Vector2{x[0] * scale, x[1] * scale}; };
+  for (const Edge& edge : edges) {
+    const Vector2 start = scaled(edge.place(0.0)), end = scaled(edge.place(1.0));
+    if (edge.is_arc())
+      walked.arc_between(scaled(edge.circle().centre), edge.circle().radius * scale,
+                         edge.outward() ? 1.0 : -1.0, edge.first(), edge.angle(), start, end);
+    else
+      walked.line(start, end);
+  }
+}
+void walk(EdgeWalk& walked, const Image& image, double scale) {
+  walk(walked, edges_of(image, false), scale);
+}
+void walk(EdgeWalk& walked, const Union& together, double scale) {
+  walk(walked, edges_of(together, false), scale);
+}
+
 }  // namespace
 
-std::vector<LatticePart> lattice_parts(const Shape& shape, double spacing) {
+std::vector<LatticePart> lattice_parts(const Region& region, double spacing) {
   EdgeWalk edge;
-  std::visit([&](const auto& s) { walk(edge, s, 1.0 / spacing); }, shape);
+  if (region.holes.empty())
+    std::visit([&](const auto& s) { walk(edge, s, 1.0 / spacing); }, region.shape);
+  else
+    walk(edge, edges_of(region, false), 1.0 / spacing);
   return edge.parts();
 }
 

@@ -13,11 +13,11 @@ struct LatticePart {
   Vector2 moment;  ///< integral of x and y over the part, from the square's lower left corner
 };
 
-/// The exact parts of a shape in the squares of the lattice of that spacing (m) through the origin, by row,
-/// then column. Green's theorem along the shape's edge, which is cut at the lattice's lines: straight pieces
+/// The exact parts of a region in the squares of the lattice of that spacing (m) through the origin, by row,
+/// then column. Green's theorem along the region's edge, which is cut at the lattice's lines: straight pieces
 /// as they are, arcs as their chords and the segments of a circle between chord and arc. Parts below 1e-9 of
 /// a square are nothing, and those within 1e-9 of a whole one are whole.
-std::vector<LatticePart> lattice_parts(const Shape& shape, double spacing);
+std::vector<LatticePart> lattice_parts(const Region& region, double spacing);
 
 /// Of a square's area: a part that is smaller makes no particle of its own.
 inline constexpr double small_part = 0.25;

@@ -75,6 +75,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   scene.functions = formulas.functions();
   scene::check_methods(document, scene);
   scene::check_materials(document, scene.materials);
+  scene::read_images(document, scene);
   scene::check_bodies(document, scene);
   scene::check_boundaries(document, scene);
   scene::check_contact(document, scene);

@@ -88,7 +88,12 @@ bool read_as_tables(const TableView& table, const Key& key, const toml::node& no
   const toml::array* list = node.as_array();
   const toml::table* tables = node.as_table();
   if (key.shape.kind == Kind::tables) {
-    if (list == nullptr || (key.required && list->empty())) return false;
+    const bool in_one_line = key.table->in_one_line;
+    if (in_one_line && tables != nullptr) {  // {..} for [{..}]
+      read_table(table.tables(key.name).front(), key.open(owner, ""));
+      return true;
+    }
+    if (list == nullptr || ((key.required || in_one_line) && list->empty())) return false;
     read_tables(table, key, *list, owner);
   } else if (tables == nullptr || (key.shape.kind == Kind::named_tables && tables->empty())) {
     return false;

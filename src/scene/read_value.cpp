@@ -64,7 +64,8 @@ class ValueReader {
   bool has_length(const toml::node& node, std::size_t length) const {
     if (!node.is_array()) return false;
     const std::size_t found = node.as_array()->size();
-    return length > 0 ? found == length : found > 0 || key_.shape.kind == Kind::texts;
+    if (length > 0 || key_.shape.kind == Kind::texts) return length == 0 || found == length;
+    return found >= (key_.shape.kind == Kind::rows ? key_.fewest : 1);
   }
 
   std::optional<Value> number(const toml::node& node, const std::string& path, std::string_view what) const {

@@ -1,9 +1,13 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -37,7 +41,47 @@ struct Ring {
 struct Polygon {
   std::vector<Vector2> vertices;
 };
-using Shape = std::variant<Box, Disk, Ring, Polygon>;
+/// Grey levels of a picture, 0 (black) to 255, by row from the top.
+struct Greys {
+  std::int64_t columns = 0, rows = 0;
+  std::vector<unsigned char> levels;
+};
+/// The pixels of a picture whose grey level lies in an interval, as squares.
+struct Image {
+  std::string file;
+  Vector2 corner{};              ///< lower left one of the picture
+  double width = 0.0;            ///< of the picture, m
+  std::array<double, 2> grey{};  ///< lowest and highest level, both included
+  std::shared_ptr<const Greys> greys;
+
+  std::int64_t columns() const { return greys->columns; }
+  std::int64_t rows() const { return greys->rows; }
+  double pixel() const { return width / static_cast<double>(columns()); }  ///< side, m
+  /// Whether a pixel is the body's, by column and by row from below; beyond the picture none is.
+  bool holds(std::int64_t column, std::int64_t row) const {
+    if (column < 0 || row < 0 || column >= columns() || row >= rows()) return false;
+    const double level = greys->levels[static_cast<std::size_t>((rows() - 1 - row) * columns() + column)];
+    return level >= grey[0] && level <= grey[1];
+  }
+};
+struct Region;
+/// What lies in one or more of its parts.
+struct Union {
+  std::vector<Region> parts;
+};
+using Shape = std::variant<Box, Disk, Ring, Polygon, Image, Union>;
+
+/// A shape and what is cut out of it.
+struct Region {
+  Region() = default;
+  template <class S>
+  requires(!std::is_base_of_v<Region, std::remove_cvref_t<S>> && std::is_constructible_v<Shape, S>)
+      Region(S&& given)
+      : shape(std::forward<S>(given)) {}  // a shape is a region
+
+  Shape shape;
+  std::vector<Region> holes;
+};
 
 /// Random displacements of a body's particles from where they are seeded, for ensembles.
 struct Perturbation {
@@ -45,10 +89,9 @@ struct Perturbation {
   int seed = 1;
 };
 
-struct BodyDefinition {
+struct BodyDefinition : Region {
   std::string name;
   std::string material;
-  Shape shape;
   int particles_per_cell = 1;                  ///< 1, 4, 9 or 16
   Vector2 velocity{0.0, 0.0};                  ///< m/s at the origin
   std::array<Vector2, 2> velocity_gradient{};  ///< rows: dv_r/d(r,z), dv_z/d(r,z), 1/s
@@ -82,10 +125,16 @@ struct FriedlanderDefinition {
   double arrival = 0.0;  ///< s
 };
 
-/// A load on the part of a body's surface that lies in a box at the start: a pressure, a vector or a pulse.
+/// A part of a body's surface by its outward normal, which is the nearest to that of this side of a box, or
+/// by whether it bounds a hole.
+enum class Side { top, bottom, left, right, inner, outer };
+
+/// A load on the part of a body's surface that lies in a box at the start, or on a side: a pressure, a vector
+/// or a pulse.
 struct TractionDefinition {
   std::string body;
-  Box box{};                       ///< may be infinite
+  std::optional<Box> box;          ///< may be infinite
+  std::optional<Side> side;        ///< instead
   std::optional<double> pressure;  ///< Pa
   std::optional<Vector2> vector;   ///< Pa
   std::optional<BlastDefinition> blast;

@@ -52,7 +52,7 @@ SceneSize size_of(const Scene& scene) {
   SceneSize size;
   for (std::size_t n = 0; n < scene.bodies.size(); ++n) {
     const BodyDefinition& body = scene.bodies[n];
-    const ShapeMeasures m = measures(body.shape, scene.geometry);
+    const ShapeMeasures m = measures(body, scene.geometry);
     const double cells = m.area / (scene.cell * scene.cell);
     const double particles = std::max(1.0, std::round(cells * body.particles_per_cell));
     const auto variables =

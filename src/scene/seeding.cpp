@@ -9,7 +9,7 @@
 namespace vitrum {
 namespace {
 
-std::vector<Seed> seed(const Box& box, double spacing, Geometry) {
+std::vector<Seed> divided(const Box& box, double spacing) {
   std::array<long, 2> count{};
   std::array<double, 2> step{};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -27,10 +27,9 @@ std::vector<Seed> seed(const Box& box, double spacing, Geometry) {
   return seeds;
 }
 
-/// Squares of the grid's own lattice: whole ones, and the parts of those that the shape's edge crosses.
-template <class Other>
-std::vector<Seed> seed(const Other& shape, double spacing, Geometry geometry) {
-  std::vector<LatticePart> parts = lattice_parts(shape, spacing);
+/// Squares of the grid's own lattice: whole ones, and the parts of those that the region's edge crosses.
+std::vector<Seed> seed(const Region& region, double spacing, Geometry geometry) {
+  std::vector<LatticePart> parts = lattice_parts(region, spacing);
   // A disk about a point of the axis stands for a sphere: what lies at r < 0 is its mirror image.
   if (geometry == Geometry::axisymmetric)
     std::erase_if(parts, [](const LatticePart& p) { return p.column < 0; });
@@ -47,19 +46,21 @@ std::vector<Seed> seed(const Other& shape, double spacing, Geometry geometry) {
 
 }  // namespace
 
-double most_seeds(const Shape& shape, double cell, int per_side) {
-  const Box box = bounds(shape);
+double most_seeds(const Region& region, double cell, int per_side) {
+  const Box box = bounds(region);
   const double spacing = cell / per_side;
   return ((box.max[0] - box.min[0]) / spacing + 2.0) * ((box.max[1] - box.min[1]) / spacing + 2.0);
 }
 
-double reach(const Shape& shape) {
-  const Box box = bounds(shape);
+double reach(const Region& region) {
+  const Box box = bounds(region);
   return std::max({std::abs(box.min[0]), std::abs(box.min[1]), std::abs(box.max[0]), std::abs(box.max[1])});
 }
 
-std::vector<Seed> seed_shape(const Shape& shape, double cell, int per_side, Geometry geometry) {
-  return std::visit([&](const auto& s) { return seed(s, cell / per_side, geometry); }, shape);
+std::vector<Seed> seed_shape(const Region& region, double cell, int per_side, Geometry geometry) {
+  const auto* box = std::get_if<Box>(&region.shape);
+  return box != nullptr && region.holes.empty() ? divided(*box, cell / per_side)
+                                                : seed(region, cell / per_side, geometry);
 }
 
 }  // namespace vitrum

@@ -3,8 +3,8 @@
 
 namespace vitrum {
 
-/// Distance between the edges of two shapes that do not overlap, m; 0 where they touch. A shape in the hole
-/// of a ring is as far from it as from its inner circle.
-double gap(const Shape& a, const Shape& b);
+/// Distance between the edges of two regions that do not overlap, m; 0 where they touch. A region in the hole
+/// of another is as far from it as from the edge of the hole.
+double gap(const Region& a, const Region& b);
 
 }  // namespace vitrum

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/shapes.hpp"
+#include "scene/surface_edges.hpp"
 
 namespace vitrum {
 namespace {
@@ -51,10 +52,48 @@ ShapeMeasures kept(const Polygon& p, bool) {
   return m;
 }
 
+/// By Green's theorem along the edges, from the axis where some of them end on it.
+ShapeMeasures composed(const Region& region, bool half_plane) {
+  const Box around = bounds(region);
+  const double from = half_plane ? 0.0 : around.min[0];
+  ShapeMeasures m{0.0, 0.0, 0.0, std::min(around.max[0] - around.min[0], around.max[1] - around.min[1])};
+  for (const Edge& edge : edges_of(region, half_plane)) {
+    m.perimeter += edge.length();
+    if (edge.is_arc()) {
+      const double x = edge.circle().centre[0] - from, r = edge.circle().radius;
+      // Integrals of x dy and x^2/2 dy from angle 0 on.
+      const auto area = [&](double a) {
+        return x * r * std::sin(a) + r * r * (0.5 * a + 0.25 * std::sin(2.0 * a));
+      };
+      const auto moment = [&](double a) {
+        const double s = std::sin(a);
+        return 0.5 * (x * x * r * s + 2.0 * x * r * r * (0.5 * a + 0.25 * std::sin(2.0 * a)) +
+                      r * r * r * (s - s * s * s / 3.0));
+      };
+      const double sense = edge.outward() ? 1.0 : -1.0, a = edge.first(), b = a + edge.angle();
+      m.area += sense * (area(b) - area(a)), m.moment += sense * (moment(b) - moment(a));
+    } else {
+      const Vector2 a = edge.place(0.0), b = edge.place(1.0);
+      const double xa = a[0] - from, xb = b[0] - from, dy = b[1] - a[1];
+      m.area += 0.5 * (xa + xb) * dy, m.moment += (xa * xa + xa * xb + xb * xb) * dy / 6.0;
+    }
+  }
+  m.moment += m.area * from;
+  return m;
+}
+ShapeMeasures kept(const Image& image, bool half_plane) {
+  return composed(image, half_plane);
+}
+ShapeMeasures kept(const Union& together, bool half_plane) {
+  return composed(together, half_plane);
+}
+
 }  // namespace
 
-ShapeMeasures measures(const Shape& shape, Geometry geometry) {
-  return std::visit([&](const auto& s) { return kept(s, geometry == Geometry::axisymmetric); }, shape);
+ShapeMeasures measures(const Region& region, Geometry geometry) {
+  const bool half_plane = geometry == Geometry::axisymmetric;
+  if (!region.holes.empty()) return composed(region, half_plane);
+  return std::visit([&](const auto& s) { return kept(s, half_plane); }, region.shape);
 }
 
 }  // namespace vitrum

@@ -3,15 +3,15 @@
 
 namespace vitrum {
 
-/// Of the part of a shape that particles are made in: axisymmetric, of what lies at r > 0. Exact but for the
+/// Of the part of a region that particles are made in: axisymmetric, of what lies at r > 0. Exact but for the
 /// width.
 struct ShapeMeasures {
   double area;       ///< m^2
   double moment;     ///< m^3, integral of the first coordinate: axisymmetric, the volume per radian
-  double perimeter;  ///< m, of the shape's edge
+  double perimeter;  ///< m, of the region's edge
   double width;      ///< m, the shorter side of the box around it
 };
 
-ShapeMeasures measures(const Shape& shape, Geometry geometry);
+ShapeMeasures measures(const Region& region, Geometry geometry);
 
 }  // namespace vitrum

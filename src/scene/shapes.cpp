@@ -1,7 +1,9 @@
 #include "scene/shapes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace vitrum {
@@ -22,6 +24,32 @@ Box bounds_of(const Polygon& p) {
   for (const Vector2& v : p.vertices)
     for (std::size_t k = 0; k < 2; ++k)
       b.min[k] = std::min(b.min[k], v[k]), b.max[k] = std::max(b.max[k], v[k]);
+  return b;
+}
+
+Box bounds_of(const Image& image) {
+  constexpr auto most = std::numeric_limits<std::int64_t>::max();
+  std::array<std::int64_t, 2> first{most, most}, end{0, 0};
+  for (std::int64_t j = 0; j < image.rows(); ++j)
+    for (std::int64_t i = 0; i < image.columns(); ++i)
+      if (image.holds(i, j))
+        first = {std::min(first[0], i), std::min(first[1], j)},
+        end = {std::max(end[0], i + 1), std::max(end[1], j + 1)};
+  Box b{image.corner, image.corner};
+  for (std::size_t k = 0; k < 2 && end[0] > 0; ++k) {
+    b.min[k] += static_cast<double>(first[k]) * image.pixel();
+    b.max[k] += static_cast<double>(end[k]) * image.pixel();
+  }
+  return b;
+}
+Box bounds_of(const Union& together) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Box b{{infinite, infinite}, {-infinite, -infinite}};
+  for (const Region& part : together.parts) {
+    const Box of_part = bounds(part);
+    for (std::size_t k = 0; k < 2; ++k)
+      b.min[k] = std::min(b.min[k], of_part.min[k]), b.max[k] = std::max(b.max[k], of_part.max[k]);
+  }
   return b;
 }
 
@@ -50,8 +78,18 @@ bool inside(const Polygon& p, const Vector2& x) {
   return in;
 }
 
+bool inside(const Image& image, const Vector2& x) {
+  const auto index = [&](std::size_t k) {
+    return static_cast<std::int64_t>(std::floor((x[k] - image.corner[k]) / image.pixel()));
+  };
+  return image.holds(index(0), index(1));
+}
+bool inside(const Union& together, const Vector2& x) {
+  return std::ranges::any_of(together.parts, [&](const Region& part) { return contains(part, x); });
+}
+
 /// Whether the corners of the square of side 2 `tolerance` about x lie inside as well.
-bool well_inside(const Shape& shape, const Vector2& x, double tolerance) {
+bool well_inside(const Region& shape, const Vector2& x, double tolerance) {
   for (const double i : {-tolerance, tolerance})
     for (const double j : {-tolerance, tolerance})
       if (!contains(shape, {x[0] + i, x[1] + j})) return false;
@@ -60,15 +98,20 @@ bool well_inside(const Shape& shape, const Vector2& x, double tolerance) {
 
 }  // namespace
 
-Box bounds(const Shape& shape) {
-  return std::visit([](const auto& s) { return bounds_of(s); }, shape);
+bool is_composed(const Region& region) {
+  return !region.holes.empty() || std::holds_alternative<Union>(region.shape);
 }
 
-bool contains(const Shape& shape, const Vector2& point) {
-  return std::visit([&](const auto& s) { return inside(s, point); }, shape);
+Box bounds(const Region& region) {
+  return std::visit([](const auto& s) { return bounds_of(s); }, region.shape);
 }
 
-std::optional<Vector2> common_point(const Shape& a, const Shape& b, double resolution, double tolerance) {
+bool contains(const Region& region, const Vector2& point) {
+  return std::visit([&](const auto& s) { return inside(s, point); }, region.shape) &&
+         std::ranges::none_of(region.holes, [&](const Region& hole) { return contains(hole, point); });
+}
+
+std::optional<Vector2> common_point(const Region& a, const Region& b, double resolution, double tolerance) {
   const Box of_a = bounds(a), of_b = bounds(b);
   constexpr double most_points = 1000.0;  // along each side
   Vector2 first, step;

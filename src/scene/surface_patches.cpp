@@ -5,12 +5,12 @@
 
 namespace vitrum {
 
-std::vector<mpm::Patch> surface_patches(const Shape& shape, Geometry geometry, const Body& body) {
+std::vector<mpm::Patch> surface_patches(const Region& region, Geometry geometry, const Body& body) {
   const bool axisymmetric = geometry == Geometry::axisymmetric;
   const double spacing = 2.0 * body.particle_half_size;
   const NearestParticle nearest(body.particles, spacing);
   std::vector<mpm::Patch> patches;
-  for (const Edge& edge : edges_of(shape, axisymmetric)) {
+  for (const Edge& edge : edges_of(region, axisymmetric)) {
     const int count = edge.pieces(spacing);
     for (int k = 0; k < count; ++k) {
       const double s = (k + 0.5) / count;

@@ -7,8 +7,8 @@
 
 namespace vitrum {
 
-/// The surface of a shape in pieces of about one particle spacing, each carried by the body's nearest
+/// The surface of a region in pieces of about one particle spacing, each carried by the body's nearest
 /// particle (mpm/contact). On the axis there is no surface.
-std::vector<mpm::Patch> surface_patches(const Shape& shape, Geometry geometry, const Body& body);
+std::vector<mpm::Patch> surface_patches(const Region& region, Geometry geometry, const Body& body);
 
 }  // namespace vitrum

@@ -83,6 +83,8 @@ std::vector<TableView> TableView::tables(std::string_view key) const {
   if (node != nullptr && node->is_array() && row.shape.kind == schema::Kind::tables)
     for (std::size_t i = 0; i < node->as_array()->size(); ++i)
       add(*node->as_array()->get(i), join_path(path, i));
+  if (node != nullptr && node->is_table() && row.shape.kind == schema::Kind::tables && row.table->in_one_line)
+    add(*node, path);
   if (node != nullptr && node->is_table() && row.shape.kind == schema::Kind::named_tables)
     for (const std::string& name : names_in_order(*node->as_table()))
       add(*node->as_table()->get(name), join_path(path, name));

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "scene/choices.hpp"
 #include "scene/scene_tables.hpp"
 #include "schema/field.hpp"
 
@@ -36,6 +39,25 @@ const schema::Table& friedlander_table() {
   return table;
 }
 
+Field<TractionDefinition> side_row() {
+  using T = TractionDefinition;
+  auto row = Field<T>::of(
+      "side", {schema::Kind::text},
+      "instead of `box`: where the outward normal points up (top), down, left (to the axis) or right, within "
+      "45 "
+      "degrees, or the edges of holes (inner), or all others (outer)",
+      schema::Need::optional,
+      [](const T& traction) -> std::optional<schema::Value> {
+        if (!traction.side) return std::nullopt;
+        return std::string(name_of(sides, *traction.side));
+      },
+      [](T& traction, const schema::Value& value) {
+        traction.side = std::ranges::find(sides, std::get<std::string>(value), &Named<Side>::name)->value;
+      });
+  row.choices = schema::texts_of(sides);
+  return row;
+}
+
 }  // namespace
 
 const schema::Table& traction_table() {
@@ -43,12 +65,11 @@ const schema::Table& traction_table() {
   static const schema::Table table = [] {
     schema::Table t = schema::table_of<T>(
         "[[traction]]",
-        "A load on the part of a body's surface that lies in a box at the start: the exact surface of its "
-        "shape, "
-        "carried by the particles next to it.",
+        "A load on the part of a body's surface that lies in a box at the start, or on a side: the exact "
+        "surface of its shape, carried by the particles next to it.",
         {{"body", &T::body, "name of a [[body]]", schema::required},
-         {"box", &T::box, traction_box_table(), "what of the surface is loaded, at the start",
-          schema::required},
+         {"box", &T::box, traction_box_table(), "what of the surface is loaded, at the start"},
+         side_row(),
          Field<T>(
              "pressure", &T::pressure, "Pa", intervals::finite,
              "positive: against the outward normal; functions of place are taken where the surface was at "
@@ -63,7 +84,7 @@ const schema::Table& traction_table() {
          {"friedlander", &T::friedlander, friedlander_table(), "a pulse of pressure, instead of `pressure`"},
          {"follows", &T::follows,
           "pressure stays normal to the surface as it turns; false: it keeps its direction"}});
-    t.alternatives = {{{"pressure", "vector", "blast", "friedlander"}, "load"}};
+    t.alternatives = {{{"pressure", "vector", "blast", "friedlander"}, "load"}, {{"box", "side"}, "place"}};
     return t;
   }();
   return table;

@@ -84,12 +84,18 @@ std::vector<std::pair<std::string, std::string>> assignments(const Table& table,
                                     key.over_time || key.over_place ? varying_text(*value, path, functions)
                                                                     : value_text(*value)));
     if (key.table == nullptr || !key.table->in_one_line) continue;
-    const void* inner = key.look(owner, 0);
-    if (inner == nullptr) continue;
-    std::string text;
-    for (const auto& [name, line] : assignments(*key.table, inner, path, functions))
-      text += (text.empty() ? "" : ", ") + line;
-    list.emplace_back(key.name, fmt::format("{} = {{{}}}", key.name, text));
+    const bool many = key.shape.kind == Kind::tables;
+    std::string texts;
+    const void* inner = nullptr;
+    for (std::size_t n = 0; (n == 0 || many) && (inner = key.look(owner, n)) != nullptr; ++n) {
+      std::string text;
+      for (const auto& [name, line] :
+           assignments(*key.table, inner, many ? join_path(path, n) : path, functions))
+        text += (text.empty() ? "" : ", ") + line;
+      texts += fmt::format("{}{{{}}}", n > 0 ? ", " : "", text);
+    }
+    if (!texts.empty())
+      list.emplace_back(key.name, fmt::format("{} = {}", key.name, many ? '[' + texts + ']' : texts));
   }
   return list;
 }

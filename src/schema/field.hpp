@@ -112,8 +112,8 @@ class Field : public Key {
   }
 
   /// One of the types of a variant as a table or, `Part` having a Codec, as a value.
-  template <class Part, class... Parts>
-  static Field alternative(std::string_view key, std::variant<Parts...> Owner::*member, const Table& table_,
+  template <class Part, class Base, class... Parts>
+  static Field alternative(std::string_view key, std::variant<Parts...> Base::*member, const Table& table_,
                            std::string_view meaning) {
     Field field(key, Shape{Kind::table}, meaning, Need::optional);
     field.table = &table_;
@@ -125,9 +125,9 @@ class Field : public Key {
     };
     return field;
   }
-  template <class Part, class... Parts>
-  static Field alternative(std::string_view key, std::variant<Parts...> Owner::*member,
-                           std::string_view unit_, const Bounds& bounds_, std::string_view meaning) {
+  template <class Part, class Base, class... Parts>
+  static Field alternative(std::string_view key, std::variant<Parts...> Base::*member, std::string_view unit_,
+                           const Bounds& bounds_, std::string_view meaning) {
     Field field(key, Codec<Part>::shape(), meaning, Need::optional);
     field.access(
         [member](const Owner& owner) {
@@ -172,6 +172,11 @@ class Field : public Key {
   /// What messages expect, where the row does not say it well enough.
   Field expecting(std::string_view what) && {
     phrase = what;
+    return std::move(*this);
+  }
+  /// No fewer rows.
+  Field at_least(std::size_t rows) && {
+    fewest = rows;
     return std::move(*this);
   }
   /// Functions of time may stand in place of its numbers: formulas of t, tables.

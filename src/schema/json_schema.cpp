@@ -67,13 +67,13 @@ Json value_schema(const Key& key, bool whole) {
       if (length == 0 && width == 2)
         return {
             {"anyOf",
-             {list_schema(list_schema(number_schema(key), width), length, 1),
+             {list_schema(list_schema(number_schema(key), width), length, key.fewest),
               {{"type", "object"},
                {"properties",
                 {{"csv",
                   {{"type", "string"}, {"description", "a file of rows of two numbers beside this one"}}}}},
                {"required", Json::array({"csv"})}}}}};
-      return list_schema(list_schema(number_schema(key), width), length, 1);
+      return list_schema(list_schema(number_schema(key), width), length, key.fewest);
     case Kind::texts: {
       Json json = list_schema(text_schema(key), length);
       json["uniqueItems"] = true;
@@ -84,6 +84,9 @@ Json value_schema(const Key& key, bool whole) {
     case Kind::table:
       return table_schema(*key.table, whole);
     case Kind::tables:
+      if (key.table->in_one_line)
+        return {
+            {"anyOf", {list_schema(table_schema(*key.table, whole), 0, 1), table_schema(*key.table, whole)}}};
       return list_schema(table_schema(*key.table, whole), 0, key.required ? 1 : 0);
     case Kind::named_tables: {
       Json json{{"type", "object"}, {"additionalProperties", table_schema(*key.table, whole)}};

@@ -22,6 +22,7 @@ struct Key {
   std::vector<std::string> choices;            ///< admitted texts; none: any
   std::vector<std::string> choices_elsewhere;  ///< what other scenes admit: of the other geometry
   std::vector<int> admitted;                   ///< integers; none: all within bounds
+  std::size_t fewest = 1;                      ///< rows
   bool over_time = false, over_place = false;  ///< functions may stand in place of its numbers
   bool required = false;
   std::optional<Value> fallback;  ///< in effect when neither the key nor an alternative of it is given

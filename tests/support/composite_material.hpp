@@ -11,14 +11,14 @@
 namespace vitrum::test {
 
 /// The numbers of a composite's state in the order in which a material with all models stores them.
-inline std::array<double*, 11> numbers_of(CompositeState& s) {
+inline std::array<double*, 12> numbers_of(CompositeState& s) {
   return {&s.crack_density,    &s.max_rate,          &s.plastic_strain, &s.decohesion,
           &s.opening_n,        &s.opening_t,         &s.normal.r,       &s.normal.z,
-          &s.effective_length, &s.cohesive_strength, &s.mean_rate};
+          &s.effective_length, &s.cohesive_strength, &s.mean_rate,      &s.strength_factor};
 }
-inline constexpr std::array<std::string_view, 11> number_names{
+inline constexpr std::array<std::string_view, 12> number_names{
     "crack_density", "max_rate", "plastic_strain",   "decohesion",        "opening_n", "opening_t",
-    "normal_r",      "normal_z", "effective_length", "cohesive_strength", "mean_rate"};
+    "normal_r",      "normal_z", "effective_length", "cohesive_strength", "mean_rate", "strength_factor"};
 /// One of them, or `dissipated`.
 inline double& number(CompositeState& s, std::string_view name) {
   for (std::size_t k = 0; k < number_names.size(); ++k)

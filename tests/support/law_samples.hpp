@@ -21,6 +21,13 @@ struct LawSample {
   double strain = 1e-3;  ///< size of strains at which the law does what it is for
   double rate = 1e4;     ///< 1/s
   bool turns = true;     ///< whether all directions of the grid are one: not of a plane, whose L_e they give
+
+  /// Free of stress; where the law scatters, weaker than it.
+  PointState start() const {
+    PointState state = material->start({});
+    if (material->scatter()) value_of(*material, state, *material->column(StrengthScatter::column)) = 0.8;
+    return state;
+  }
 };
 
 /// Parameters of a registered law.
@@ -67,8 +74,7 @@ inline const std::map<std::string, RegisteredSample>& registered_samples() {
   return samples;
 }
 
-inline LawSample sample_of(const RegisteredLaw& law) {
-  const RegisteredSample& sample = registered_samples().at(law.table);
+inline LawSample sample_of(const RegisteredLaw& law, const RegisteredSample& sample) {
   MaterialParameters p;
   p.name = law.table;
   p.elastic = sample.elastic;
@@ -80,7 +86,8 @@ inline LawSample sample_of(const RegisteredLaw& law) {
 /// reading of the paper.
 inline std::vector<LawSample> law_samples() {
   std::vector<LawSample> all{{"minimal", minimal_material(), 4e-3}};
-  for (const RegisteredLaw& law : registered_laws()) all.push_back(sample_of(law));
+  for (const RegisteredLaw& law : registered_laws())
+    all.push_back(sample_of(law, registered_samples().at(law.table)));
   for (const NamedMaterial& named : all_compositions())
     all.push_back({.name = named.name,
                    .material = make_material(named.parameters, cell),
@@ -89,6 +96,13 @@ inline std::vector<LawSample> law_samples() {
     all.push_back({.name = named.name, .material = make_material(named.parameters, cell)});
   for (const NamedMaterial& named : readings())
     all.push_back({.name = named.name, .material = make_material(named.parameters, cell), .turns = false});
+  MaterialParameters scattered = damaging_glass();
+  scattered.damage->scatter = StrengthScatter{7.0, 1e-9};
+  all.push_back({.name = "scattered damage", .material = make_material(scattered, cell)});
+  RegisteredSample ceramic = registered_samples().at("johnson_holmquist");
+  std::any_cast<JohnsonHolmquistParameters&>(ceramic.values).scatter = StrengthScatter{7.0, 1e-9};
+  all.push_back(sample_of(*find_law("johnson_holmquist"), ceramic));
+  all.back().name = "scattered johnson_holmquist";
   return all;
 }
 

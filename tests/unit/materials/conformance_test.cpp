@@ -17,10 +17,10 @@ namespace {
 /// One particle of 1 m^3 in columns.
 class Particle {
  public:
-  explicit Particle(const Material& material)
-      : material_(material), variables_(material.columns().size()), mass_(material.density()) {
-    const PointState start = material.start({});
-    for (std::size_t k = 0; k < variables_.size(); ++k) variables_[k] = value_of(material, start, k);
+  explicit Particle(const LawSample& law)
+      : material_(*law.material), variables_(material_.columns().size()), mass_(material_.density()) {
+    const PointState start = law.start();
+    for (std::size_t k = 0; k < variables_.size(); ++k) variables_[k] = value_of(material_, start, k);
   }
 
   void advance(const SymmetricTensor& strain, double spin, double duration, BatchReport& report) {
@@ -100,7 +100,7 @@ struct Ends {
 /// Follows a path of straight pieces in `steps` increments each. Work by the trapezoidal rule, J/m^3.
 Ends follow(const LawSample& law, const std::vector<SymmetricTensor>& pieces, int steps,
             PointIntegrator* integrator = nullptr) {
-  Ends ends{law.material->start({})};
+  Ends ends{law.start()};
   for (const SymmetricTensor& piece : pieces)
     for (int i = 0; i < steps; ++i) {
       const SymmetricTensor increment = (1.0 / steps) * piece, before = ends.state.stress;
@@ -160,7 +160,7 @@ TEST_CASE("a law is objective: what it stores turns with the particle", "[materi
     if (!law.turns) continue;
     CAPTURE(law.name);
     Random random(211);
-    Particle still(*law.material), turning(*law.material);
+    Particle still(law), turning(law);
     BatchReport a, b;
     double angle = 0.0;
     const Wandering path = wandering(random, law, 8, 10);
@@ -183,7 +183,7 @@ TEST_CASE("a mirror changes the signs that kinds and parities tell", "[material]
   for (const LawSample& law : law_samples()) {
     CAPTURE(law.name);
     Random random(212);
-    Particle here(*law.material), image(*law.material);
+    Particle here(law), image(law);
     BatchReport report;
     const Wandering path = wandering(random, law, 8, 10);
     for (const SymmetricTensor& increment : path.increments) {
@@ -308,7 +308,7 @@ TEST_CASE("a law keeps nothing but its columns: it goes on to the bit from what 
   for (std::size_t n = 0; n < laws.size(); ++n) {
     CAPTURE(laws[n].name);
     Random random(217);
-    Particle all(*laws[n].material), later(*others[n].material);
+    Particle all(laws[n]), later(others[n]);
     BatchReport report;
     const Wandering path = wandering(random, laws[n], 4, 10);
     for (std::size_t i = 0; i < path.increments.size(); ++i) {

@@ -71,7 +71,7 @@ TEST_CASE("missing required keys are reported at their table", "[scene]") {
       {"disk = {centre = [0, 0.01], radius = 0.004}",
        "",
        "s.toml:14:1: key 'body.1': ",
-       {"found no shape", "exactly one of box, disk, ring, polygon"}},
+       {"found no shape", "exactly one of box, disk, ring, polygon, image, union"}},
   });
 }
 
