@@ -20,8 +20,11 @@ void check_rows() {
     CHECK_FALSE(row.unit.empty());
     CHECK_FALSE(row.text.empty());
     CHECK(row.bounds.lowest < row.bounds.highest);
-    if (row.fallback) CHECK(row.bounds.contain(std::get<double>(*row.fallback)));
-    CHECK(row.required != row.fallback.has_value());
+    if (const double* fallback = row.fallback ? std::get_if<double>(&*row.fallback) : nullptr)
+      CHECK(row.bounds.contain(*fallback));
+    // What is neither required nor has a default says what its absence means.
+    CHECK((row.required || row.fallback || row.text.find("absent") != std::string::npos));
+    CHECK_FALSE((row.required && row.fallback));
     CHECK(names.insert(row.name).second);
   }
   CHECK_FALSE(names.empty());
