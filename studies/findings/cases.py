@@ -7,11 +7,11 @@ gap = 3.0e-3  # m, between plate and cylinder
 schemes = ("usf", "usl", "musl")
 steps = (2e-7, 1e-7, 5e-8, 2.5e-8)  # s
 resolved_step = 5e-8  # s: such steps and shorter ones resolve the fastest waves
-_glass = {"density": 2500.0, "young": 72e9, "poisson": 0.25}
-_steel = {"density": 7800.0, "young": 195e9, "poisson": 0.25}
+_glass: dict = {"density": 2500.0, "young": 72e9, "poisson": 0.25}
+_steel: dict = {"density": 7800.0, "young": 195e9, "poisson": 0.25}
 _mises = {"yield": 359e6, "peak": 484e6, "hardening": 9.6e9, "softening": 9.6e9}
 # What is left of the models: label -> tables of materials in place of the scene's.
-models = {"all elastic": {"material.glass": _glass, "material.steel": _steel},
+models: dict[str, dict[str, dict]] = {"all elastic": {"material.glass": _glass, "material.steel": _steel},
           "steel von Mises, glass elastic": {"material.glass": _glass, "material.steel": {**_steel, "von_mises": _mises}},
           "glass complete, steel elastic": {"material.steel": _steel},
           "glass complete, steel von Mises without decohesion": {"material.steel": {**_steel, "von_mises": _mises}},
@@ -53,7 +53,7 @@ def local_cases(quick):
     """(method, solver, rtol) -> Case; outputs each half a microsecond, of series only."""
     found = {}
     for method, solver, rtol in local_methods if not quick else local_methods[:2]:
-        settings = {**explicit("musl", 5e-8), "constitutive.method": method, "output.every": 5e-7}
+        settings: dict = {**explicit("musl", 5e-8), "constitutive.method": method, "output.every": 5e-7}
         if rtol is not None:
             settings |= {"constitutive.rtol": rtol, "constitutive.atol": 1e-3 * rtol}
         if solver is not None:

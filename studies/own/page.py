@@ -167,7 +167,7 @@ def write(out, quick, name="report.html", files=True, state=None, refresh=None):
     count, seconds = run_times(out)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(here), autoescape=True, undefined=jinja2.StrictUndefined)
     text = environment.get_template("page.html").render(
-        studies=[_section(study, files) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, state=state,
+        title=studies[0].plan["title"] if studies else f"Study in {pathlib.Path(out).resolve().name}", studies=[_section(study, files) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, state=state,
         made=f"{version()}; commit {commit()}; {datetime.date.today().isoformat()}; {machine()}; {count:,} runs, {seconds:,.0f} s together")
     following = pathlib.Path(out) / f".{name}.next"
     following.write_text(text, encoding="utf-8")

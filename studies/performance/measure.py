@@ -3,8 +3,8 @@
 
     studies/performance/measure.py BUILD [--out DIR] [--repetitions N] [--quick]
 
-BUILD is a build tree with the target vitrum_benchmarks (cmake --preset native && cmake --build --preset native). Leaves measurements.md
-(tables), benchmarks.json (Google Benchmark's context and every repetition's time) and roofline.png in DIR (default: docs). --quick: small scenes once, to see that the
+BUILD is a build tree with the target vitrum_benchmarks (cmake --preset native && cmake --build --preset native). Leaves performance-measurements.md
+(tables), benchmarks.json (Google Benchmark's context and every repetition's time) and pictures/roofline.png in DIR (default: docs/reports, and the picture in docs). --quick: small scenes once, to see that the
 script runs. Run it on a quiet machine: it times.
 """
 import argparse
@@ -51,24 +51,24 @@ def run_benchmarks(build, out, repetitions, quick):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("--out", type=pathlib.Path, default=here.parent.parent / "docs")
+    parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--repetitions", type=int, default=7)
     parser.add_argument("--quick", action="store_true")
     arguments = parser.parse_args()
     repetitions = 2 if arguments.quick else max(5, arguments.repetitions)
-    arguments.out.mkdir(parents=True, exist_ok=True)
+    docs = here.parent.parent / "docs"
+    out, pictures = arguments.out or docs / "reports", (arguments.out or docs) / "pictures"
+    pictures.mkdir(parents=True, exist_ok=True)
     program = arguments.build / "src/app/vitrum"
 
-    benchmarks = run_benchmarks(arguments.build, arguments.out, repetitions, arguments.quick)
+    benchmarks = run_benchmarks(arguments.build, out, repetitions, arguments.quick)
     parts = [tables.header(program, repetitions)]
     parts.append(tables.machine_and_scenes(benchmarks))
     parts.append(tables.parts_of_a_step(benchmarks))
     parts.append(tables.responses(benchmarks))
     parts.append(tables.required(program, repetitions, arguments.quick))
     parts.append(tables.growth(program, repetitions, arguments.quick))
-    (arguments.out / "performance-measurements.md").write_text("\n\n".join(parts) + "\n")
-    pictures = arguments.out / "pictures"
-    pictures.mkdir(exist_ok=True)
+    (out / "performance-measurements.md").write_text("\n\n".join(parts) + "\n")
     draw_roofline(benchmarks, pictures / "roofline.png", tables.version(program))
 
 

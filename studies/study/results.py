@@ -42,8 +42,12 @@ class Study:
         return "to come" if outcome is None else outcome.status
 
     def message(self, name):
+        """Why a run failed, in a line, without the warnings before; empty: it did not."""
         outcome = self.outcome(name)
-        return "" if outcome is None else outcome.message
+        if outcome is None or outcome.complete:
+            return ""
+        _, word, said = outcome.message.rpartition("error: ")
+        return " ".join((word + said).split())
 
     def summary(self, name):
         """None for a run that did not come to its end."""
@@ -116,5 +120,5 @@ def work(study, name):
 def case_rows(study):
     for name, case in study.cases.items():
         yield {"case": name, "role": case["role"], **{key: case.get(key) for key in ("method", "setting", "effort", "kind", "point", "member")}, **work(study, name),
-               **{quantity.name: study.value(name, quantity) for quantity in study.quantities}, "message": " ".join(study.message(name).split())[:300] or None,
+               **{quantity.name: study.value(name, quantity) for quantity in study.quantities}, "message": study.message(name) or None,
                "settings": plans.typed(case["settings"])}

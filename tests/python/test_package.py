@@ -35,7 +35,7 @@ class Types(PackageTest):
     @unittest.skipUnless(importlib.util.find_spec("mypy"), "no mypy")
     def test_annotations_hold(self):
         done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--check-untyped-defs", f"--cache-dir={self.folder}",
-                               *[word for package in ("vitrum", "study", "own", "paper", "trade", "sensitivity", "stability") for word in ("-p", package)]],
+                               *[word for package in ("vitrum", "study", "own", "paper", "trade", "sensitivity", "stability", "findings") for word in ("-p", package)]],
                               capture_output=True, text=True, cwd=source / "studies")
         self.assertEqual(done.returncode, 0, done.stdout)
 

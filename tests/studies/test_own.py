@@ -317,6 +317,40 @@ def assert_page_works(test, path, parts=()):
     test.assertNotEqual(*papers)
 
 
+class Failing(Folder):
+    def test_runs_that_fail_are_results(self):
+        """Beyond the critical step the scene as it is fails, and what is made of it; a reference too."""
+        self.command(self.write(f"""
+scene = "{blocks}"
+set = {{"time.end" = 4e-6, "integrator.step" = 4e-7}}
+[vary]
+"integrator.scheme" = ["musl", "usf"]
+[[method]]
+name = "MUSL"
+ladder = {{"integrator.step" = [4e-7, 5e-8]}}
+[[reference]]
+name = "too long"
+set = {{"integrator.step" = 5e-7}}
+[[reference]]
+name = "short"
+set = {{"integrator.step" = 2e-8}}
+[ensemble]
+members = 2
+[report]
+kinds = ["trade", "error-bars", "sweep", "methods"]
+"""))
+        cases = {row["case"]: row for row in self.table("cases")}
+        self.assertEqual(cases["base"]["status"], "failed")
+        self.assertIn("max_growth", cases["base"]["message"])
+        self.assertEqual({row["verdict"] for row in self.table("error_bars")} & {"converged"}, set())
+        self.assertTrue(all(row["advice"].startswith("undecidable") for row in self.table("recommendations")))
+        self.assertEqual({row["status"] for row in self.table("sweep")}, {"failed"})
+        self.assertEqual({(row["setting"], row["status"]) for row in self.table("methods")}, {("step 4e-07", "failed"), ("step 5e-08", "complete")})
+        page = (self.folder / "out/report.html").read_text()
+        self.assertIn("Runs that did not come to their end", page)
+        assert_page_works(self, self.folder / "out/report.html")
+
+
 class Watched(Folder):
     """watch.html, while a study runs, when it is stopped, and when it is done."""
     text = f"""
@@ -362,6 +396,14 @@ kinds = ["methods"]
         text = self.page(lambda text: "Stopped" in text)
         self.assertNotIn("http-equiv", text)
         self.assertIn("3 of 4 cases done", text)
+
+    def test_a_study_that_no_file_tells_is_counted(self):
+        from own import page
+        out = self.folder / "out"
+        out.mkdir()
+        page.write(out, True, "watch.html", files=False, state={"heading": "Under way", "text": "3 of 9 cases done", "done": 3, "every": 9, "at": "today"}, refresh=7)
+        text = (out / "watch.html").read_text()
+        self.assertEqual([part for part in ("Study in out", "3 of 9 cases done", 'content="7"', 'max="9" value="3"') if part not in text], [])
 
     def test_a_study_that_comes_to_its_end(self):
         study = self.start(5e-8)
