@@ -159,11 +159,17 @@ def _section(study, write):
             **{kind.replace("-", "_"): make(study, sheet) if kind in plan["kinds"] else None for kind, make in _parts.items()}}
 
 
-def write(out, quick, name="report.html", files=True, state=None, refresh=None):
-    """The page NAME. `files`: also tables/*.csv, figures/*.png and *.pdf; without, of the runs that are there. `state`: how far a study is that is not done (heading, and what
-    progress.json says). `refresh`: seconds after which a browser reads the page again."""
+def studies_of(out, partial=False):
+    """The studies of a folder, one each file."""
+    return [Study(pathlib.Path(out), key, partial) for key in plans.load_all(out)]
+
+
+def write(out, quick, name="report.html", studies=None, state=None, refresh=None):
+    """The page NAME. Without `studies`, of all runs, and with tables/*.csv, figures/*.png and *.pdf; with, of the runs that are there. `state`: how far a study is that is
+    not done (heading, and what progress.json says). `refresh`: seconds after which a browser reads the page again."""
     plt.rcParams.update(style)
-    studies = [Study(pathlib.Path(out), key, partial=not files) for key in plans.load_all(out)]
+    files = studies is None
+    studies = studies_of(out) if files else studies
     count, seconds = run_times(out)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(here), autoescape=True, undefined=jinja2.StrictUndefined)
     text = environment.get_template("page.html").render(

@@ -29,14 +29,20 @@ def finished(out):
 def watch(out, quick, seconds):
     """Until the study ends; then the page says how, and a browser that follows it reads it for the last time."""
     print(f"{out / 'watch.html'}: follows the study; open it in a browser", file=sys.stderr, flush=True)
-    following = 0.0
+    studies, following = page.studies_of(out, partial=True), 0.0
+
+    def write(state, refresh=None):
+        for study in studies:
+            study.look_again()
+        page.write(out, quick, "watch.html", studies, state, refresh)
+
     while under_way(out):
         if time.monotonic() >= following:
             start = time.monotonic()
-            page.write(out, quick, "watch.html", files=False, state={"heading": "Under way", **progress.read(out)}, refresh=seconds)
+            write({"heading": "Under way", **progress.read(out)}, seconds)
             following = time.monotonic() + max(seconds, rest * (time.monotonic() - start))
         time.sleep(0.2)
-    page.write(out, quick, "watch.html", files=False, state=None if finished(out) else {"heading": "Stopped", **progress.read(out)})
+    write(None if finished(out) else {"heading": "Stopped", **progress.read(out)})
 
 
 if __name__ == "__main__":

@@ -25,8 +25,10 @@ def line(done, every, running, elapsed, before=0):
 
 
 def expect(weights):
-    """Tells who counts what there is to do: job -> cases."""
+    """Tells who counts what there is to do (job -> cases), in the study's folder."""
     _write(pathlib.Path(".jobs.json"), weights)
+    done, every = _counts()
+    _record(done, every, line(done, every, 0, 0.0, done))
 
 
 def _write(path, record):
@@ -36,10 +38,19 @@ def _write(path, record):
     following.replace(path)
 
 
+def _counts():
+    """(cases done, all)."""
+    weights = json.loads(pathlib.Path(".jobs.json").read_text())
+    return sum(cases for job, cases in weights.items() if pathlib.Path(f"jobs/{job}.done").exists()), sum(weights.values())
+
+
+def _record(done, every, text):
+    _write(pathlib.Path("progress.json"), {"text": text, "done": done, "every": every, "at": time.strftime("%Y-%m-%d %H:%M:%S")})
+
+
 def _tell():
     global _before, _said
-    weights = json.loads(pathlib.Path(".jobs.json").read_text())
-    done, every = sum(cases for job, cases in weights.items() if pathlib.Path(f"jobs/{job}.done").exists()), sum(weights.values())
+    done, every = _counts()
     if _before is None:
         _before = done
     text = line(done, every, len(_running), time.monotonic() - _start, _before)
@@ -47,7 +58,7 @@ def _tell():
         return
     _said = text
     print(text, file=sys.stderr, flush=True)
-    _write(pathlib.Path("progress.json"), {"text": text, "done": done, "every": every, "at": time.strftime("%Y-%m-%d %H:%M:%S")})
+    _record(done, every, text)
 
 
 def read(out):

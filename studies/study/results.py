@@ -18,6 +18,11 @@ class Study:
         self.scene = self.plan["resolved"]
         self._outcomes, self._summaries = {}, {}
 
+    def look_again(self):
+        """Forgets what was not there."""
+        self._outcomes = {run: outcome for run, outcome in self._outcomes.items() if outcome is not None}
+        self.__dict__.pop("quantities", None)
+
     def outcome(self, name):
         """None: it is not there yet."""
         run = self.cases[name]["run"]

@@ -401,7 +401,7 @@ kinds = ["methods"]
         from own import page
         out = self.folder / "out"
         out.mkdir()
-        page.write(out, True, "watch.html", files=False, state={"heading": "Under way", "text": "3 of 9 cases done", "done": 3, "every": 9, "at": "today"}, refresh=7)
+        page.write(out, True, "watch.html", [], {"heading": "Under way", "text": "3 of 9 cases done", "done": 3, "every": 9, "at": "today"}, 7)
         text = (out / "watch.html").read_text()
         self.assertEqual([part for part in ("Study in out", "3 of 9 cases done", 'content="7"', 'max="9" value="3"') if part not in text], [])
 
