@@ -21,7 +21,8 @@ class Bars:
 
     @property
     def largest(self):
-        known = {kind: bar for kind, bar in self.relative.items() if bar is not None}
+        """The kind of the largest bar; chaos, where the others are no more than two members may differ by, twice its bar: a pair of runs cannot tell them apart."""
+        known = {kind: bar * (2.0 if kind == "chaos" else 1.0) for kind, bar in self.relative.items() if bar is not None}
         return max(known, key=known.__getitem__) if known else None
 
     @cached_property
@@ -61,13 +62,14 @@ def bars_at(study, quantity, base, point=None):
 
 
 def verdict(bars, converged):
+    """What the bars mean, in words; `converged`: of the quantity's scale, what does not matter."""
     if bars.undecided:
         return "undecided: some runs have it, some have not"
     if bars.value is None:
         return "absent"
     if bars.largest is None:
         return "not measured"
-    if bars.relative[bars.largest] <= converged:
+    if max(bar for bar in bars.relative.values() if bar is not None) <= converged:
         return "converged"
     return {"time": "needs a tolerance", "local": "needs a tolerance", "space": "needs cells", "chaos": "chaotic"}[bars.largest]
 
@@ -75,14 +77,14 @@ def verdict(bars, converged):
 def best_effort(bars):
     """What moves the largest bar most per second, in words."""
     kind = bars.largest
-    if kind is None:
+    if kind is None or bars.relative[kind] == 0.0:
         return ""
     if kind == "chaos":
         return f"more members: of {len(bars.members)} the mean is known to ±{100.0 * bars.relative[kind] / len(bars.members) ** 0.5:.2g} %"
     rates = {effort: moved / seconds for effort, (of, moved, seconds) in bars.efforts.items() if of == kind}
     effort = max(rates, key=rates.__getitem__)
     _, moved, seconds = bars.efforts[effort]
-    return f"{effort}: moves it by {100.0 * moved:.2g} % for {seconds:.2g} s more" if moved > 0.0 else ""
+    return f"{effort}: moves it by {100.0 * moved:.2g} % for {seconds:.2g} s more"
 
 
 def best_of_all(every, converged):
@@ -101,10 +103,11 @@ def best_of_all(every, converged):
     return (f"{best[0].upper()}{best[1:]} takes most off the largest bars for its time: {100.0 * moved:.2g} % of the quantities' scales together, for {seconds:.2g} s more a run.")
 
 
-def bar_rows(study, point=None, base=None):
-    base = base or study.named("base")[0]
+def bar_rows(study):
+    """(bars, row of the table) of each quantity of the scene as it is; bars in the quantity's unit."""
+    base = study.named("base")[0]
     for quantity in study.quantities:
-        bars = bars_at(study, quantity, base, point)
+        bars = bars_at(study, quantity, base)
         yield bars, {"quantity": quantity.name, "unit": quantity.unit, "value": bars.value, "scale": bars.scale,
                      **{kind: None if bars.relative.get(kind) is None else bars.relative[kind] * bars.scale for kind in kinds},
                      "verdict": verdict(bars, study.plan["converged"]), "largest": bars.largest, "effort": best_effort(bars),

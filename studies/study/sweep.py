@@ -17,6 +17,7 @@ def label(study, number):
 
 
 def sweep_rows(study):
+    """A row for each point: what it cost, the quantities, and the sum of their error bars (root of squares) where these were asked for."""
     for name in study.named_any("point"):
         number = study.cases[name]["point"]
         row = {**_point(study, number), **work(study, name)}

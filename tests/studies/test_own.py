@@ -191,7 +191,8 @@ class Meaning(unittest.TestCase):
 
     def test_verdicts(self):
         for relative, expected in (({"time": 1e-3, "space": 9e-3}, "converged"), ({"time": 0.03, "space": 0.02}, "needs a tolerance"), ({"local": 0.03}, "needs a tolerance"),
-                                   ({"time": 0.02, "space": 0.03}, "needs cells"), ({"space": 0.02, "chaos": 0.03}, "chaotic"), ({}, "not measured")):
+                                   ({"time": 0.02, "space": 0.03}, "needs cells"), ({"space": 0.02, "chaos": 0.03}, "chaotic"),
+                                   ({"space": 0.05, "chaos": 0.03}, "chaotic"), ({"space": 0.07, "chaos": 0.03}, "needs cells"), ({"time": 0.02, "chaos": 0.0099}, "needs a tolerance"), ({}, "not measured")):
             self.assertEqual(bars.verdict(self.measured(**relative), 0.01), expected)
         unsure = self.measured(time=0.0)
         unsure.undecided = True
