@@ -16,11 +16,13 @@ source = pathlib.Path(__file__).resolve().parent.parent.parent
 if "VITRUM" not in os.environ:
     sys.exit("set VITRUM to the path of the program")
 os.environ["VITRUM"] = os.path.abspath(os.environ["VITRUM"])
+sys.path.insert(0, str(source / "studies"))
+blocks = source / "studies/trade/impact.toml"  # elastic
 
 
 def run_study(name, out, *options):
     """As `./quickstart study` does it, from the project's root."""
-    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=600, cwd=source)
+    return subprocess.run([source / "studies/run", name, out, "1", *options], capture_output=True, text=True, timeout=1500, cwd=source)
 
 
 def png_text(path):
@@ -80,6 +82,49 @@ class StudyTest(unittest.TestCase):
         page = (self.out / "page.md").read_text()
         for part in parts:
             self.assertNotIn(part, page)
+
+
+class Folder(unittest.TestCase):
+    """A test of studies of one's own scene, in a folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrum study "))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, text):
+        path = self.folder / "study.toml"
+        path.write_text(text)
+        return path
+
+    def command(self, path, *options, status=0):
+        done = subprocess.run([source / "studies/vitrum-study", path, "--out", self.folder / "out", *options], capture_output=True, text=True, timeout=1500)
+        self.assertEqual(done.returncode, status, done.stdout[-1000:] + done.stderr[-3000:])
+        return done
+
+    def table(self, name):
+        with open(self.folder / "out/tables" / f"{name}.csv", newline="") as opened:
+            return [{key: _value(text) for key, text in row.items()} for row in csv.DictReader(opened)]
+
+
+def assert_page_works(test, path, parts=()):
+    """In a browser, where there is one: its text is there, nothing to complain of, no wider than a phone, in the light and in the dark."""
+    sys.path.insert(0, str(source / "tests/python"))
+    import browser
+    if not browser.there:
+        return
+    driver = browser.start()
+    test.addCleanup(driver.quit)
+    papers = []
+    for scheme in ("light", "dark"):
+        browser.look(driver, 360, 740, scheme)
+        driver.get(f"file://{path}")
+        test.assertEqual(browser.complaints(driver), [])
+        test.assertLessEqual(driver.execute_script("return document.documentElement.scrollWidth"), 360)
+        test.assertEqual(driver.execute_script("return [...document.querySelectorAll('figure svg')].filter(each => each.getBoundingClientRect().height < 60).length"), 0)
+        text = driver.execute_script("return document.body.innerText")
+        test.assertEqual([part for part in parts if part not in text], [])
+        papers.append(driver.execute_script("return getComputedStyle(document.body).backgroundColor"))
+    test.assertNotEqual(*papers)
 
 
 def _value(text):

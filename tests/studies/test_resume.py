@@ -25,7 +25,7 @@ class Resume(unittest.TestCase):
         # A group of its own, so that what it started dies with it.
         study = subprocess.Popen([source / "studies/run", "sensitivity", self.out, "1"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                  start_new_session=True)
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 900
         while len(self.finished()) < 4 and study.poll() is None and time.monotonic() < deadline:
             time.sleep(0.02)
         os.killpg(study.pid, signal.SIGKILL)
@@ -49,7 +49,7 @@ class Resume(unittest.TestCase):
         environment = {**os.environ, "VITRUM": str(refusing)}
         # A study of a file, and one whose cases are made by its module.
         for name, expected in (("paper", "error: scene.toml:1:1: key 'x': no"), ("findings", "case pictures/reference: exit status 2: scene.toml:1:1: key 'x': no")):
-            done = subprocess.run([source / "studies/run", name, self.out, "1"], capture_output=True, text=True, env=environment, timeout=120)
+            done = subprocess.run([source / "studies/run", name, self.out, "1"], capture_output=True, text=True, env=environment, timeout=900)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(expected, done.stderr)
             self.assertFalse((self.out / "runs").exists())
