@@ -73,6 +73,14 @@ void GridSystem::begin_phase() {
     couplings = system_.contact->foresee(system_, travel_ * system_.cell);
   }
   stiffness_.lay_out(system_, nodes_, couplings);
+  mass_.assemble(system_, nodes_);
+  pattern_ = mass_.times(stiffness_.pattern());
+  diagonal_.resize(nodes_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    diagonal_[k] = static_cast<std::size_t>(std::find(pattern_.row.begin() + pattern_.column[k],
+                                                      pattern_.row.begin() + pattern_.column[k + 1],
+                                                      static_cast<std::int64_t>(k)) -
+                                            pattern_.row.begin());
   start_velocity_.resize(nodes_.size());
   mpm::read_field(system_, nodes_, Field::velocity_0, start_velocity_.data());
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
@@ -81,7 +89,7 @@ void GridSystem::begin_phase() {
     deformations_[n].committed_turn.assign(particles, 0.0);
   }
   start_time_ = committed_time_ = system_.time;
-  committed_tail_.assign(tail_, 0.0), deformation_ = 0.0;
+  committed_tail_.assign(tail_, 0.0), deformation_ = driven_gain_ = 0.0;
   start_kinetic_ = mpm::kinetic_energy(system_);
   mean_mass_ = nodes_.size() == 0 ? 1.0
                                   : std::accumulate(nodes_.mass.begin(), nodes_.mass.end(), 0.0) /
@@ -89,8 +97,8 @@ void GridSystem::begin_phase() {
 }
 
 void GridSystem::start(double* y) {
-  std::fill(y, y + size(), 0.0);
-  reactions_.begin(y + size());
+  std::fill(y, y + size() + nodes_.size(), 0.0);
+  reactions_.begin(y + size() + nodes_.size());
   std::copy(start_velocity_.begin(), start_velocity_.end(), y + nodes_.size());
 }
 
@@ -213,32 +221,28 @@ void GridSystem::set_loads(double t) {
 }
 
 /// Held nodes whose velocity varies take their particles along at the end of the phase. What that takes, of
-/// kinetic energy and of impulse, is booked here. Returns the kinetic energy gained since the start.
-double GridSystem::book_driven(double t) {
+/// kinetic energy and of impulse, is booked here. q: by unknown. Returns the kinetic energy gained since the
+/// start.
+double GridSystem::book_driven(double t, const double* q) {
   if (!mpm::drives(system_)) return 0.0;
   set_loads(t);
   const mpm::OfBoundaries held = mpm::boundary_velocities(system_);
+  mpm::OfBoundaries changes = held;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    for (std::size_t c = 0; c < 2; ++c) changes[k][c] -= held_at_start_[k][c];
   const double* mass = system_.grid.field(Field::mass);
-  const std::array<const double*, 2> momentum{system_.grid.field(Field::momentum_0),
-                                              system_.grid.field(Field::momentum_1)};
-  double gained = 0.0, work = 0.0;
   for (std::size_t block = 0; block < system_.grid.blocks().size(); ++block) {
     if (!system_.grid.blocks()[block].constrained) continue;
     for (std::size_t n = block * mpm::block_nodes; n < (block + 1) * mpm::block_nodes; ++n)
-      for (std::size_t c = 0; c < 2; ++c) {
-        const std::int16_t by = system_.grid.constraint(c, n);
-        if (by < 0) continue;
-        const auto k = static_cast<std::size_t>(by);
-        const double now = held[k][c], before = held_committed_[k][c], first = held_at_start_[k][c];
-        // What particles have beyond the node's momentum at the start does work as well.
-        const double beyond = momentum[c][n] - mass[n] * first;
-        gained += (beyond + 0.5 * mass[n] * (now + first)) * (now - first);
-        work += (beyond + 0.5 * mass[n] * (now + before)) * (now - before);
-        system_.record.impulses[2 * k + c] += mass[n] * (now - before);
-      }
+      for (std::size_t c = 0; c < 2; ++c)
+        if (const std::int16_t by = system_.grid.constraint(c, n); by >= 0) {
+          const auto k = static_cast<std::size_t>(by);
+          system_.record.impulses[2 * k + c] += mass[n] * (held[k][c] - held_committed_[k][c]);
+        }
   }
   held_committed_ = held;
-  system_.record.external_work += work;
+  const double gained = mass_.gain_by_boundaries(q, changes);
+  system_.record.external_work += gained - std::exchange(driven_gain_, gained);
   return gained;
 }
 
@@ -262,9 +266,11 @@ bool GridSystem::rates(double t, const double* y, double* rates) {
   if (works_) mpm::fill_field(system_, nodes_, y + n, mpm::boundary_velocities(system_), Field::velocity_0);
   double power = mpm::accelerate(system_);
   if (system_.tractions) power += system_.tractions->power(motion);
-  reactions_.rates(system_, rates + size());
+  double* const accelerations = rates + size();
+  reactions_.rates(system_, accelerations + n);
   std::copy(y + n, y + 2 * n, rates);
-  mpm::read_field(system_, nodes_, Field::acceleration_0, rates + n);
+  mpm::read_field(system_, nodes_, Field::acceleration_0, accelerations);
+  mass_.project(system_, accelerations, rates + n);
   if (works_) rates[2 * n] = power;
   not_finite_ = first_not_finite(rates, size());
   return !not_finite_;
@@ -287,26 +293,26 @@ bool GridSystem::linearise(double t, const double* y) {
     if (!system_.tractions->by_turn().empty())
       stiffness_.add_followers(system_, nodes_, system_.tractions->by_turn(), stiffness_values_);
   }
+  mass_.times(stiffness_.pattern(), stiffness_values_, pattern_, mobile_stiffness_);
   double sum = 0.0;
-  for (const double k : stiffness_values_) sum += k;
+  for (const double k : mobile_stiffness_) sum += k;
   return std::isfinite(sum);
 }
 
 void GridSystem::form(double gamma, double* values) const {
-  // (I - gamma J) x = b with u' = v, M v' = f(u): eliminating x_u leaves (M + gamma^2 K) x_v = M b_v - gamma
-  // K b_u.
-  for (std::size_t k = 0; k < stiffness_values_.size(); ++k) values[k] = gamma * gamma * stiffness_values_[k];
-  for (std::size_t k = 0; k < nodes_.size(); ++k) values[stiffness_.diagonal()[k]] += nodes_.mass[k];
+  // (I - gamma J) x = b with u' = v, m v' = M (1/m) f(u): eliminating x_u leaves (m + gamma^2 M (1/m) K) x_v
+  // = m b_v - gamma M (1/m) K b_u.
+  for (std::size_t k = 0; k < mobile_stiffness_.size(); ++k) values[k] = gamma * gamma * mobile_stiffness_[k];
+  for (std::size_t k = 0; k < nodes_.size(); ++k) values[diagonal_[k]] += nodes_.mass[k];
 }
 
 void GridSystem::reduce(double gamma, const double* b, double* c) const {
   const std::size_t n = nodes_.size();
   for (std::size_t k = 0; k < n; ++k) c[k] = nodes_.mass[k] * b[n + k];
-  const sundials::SparsePattern& pattern = stiffness_.pattern();
   for (std::size_t k = 0; k < n; ++k)
-    for (auto e = static_cast<std::size_t>(pattern.column[k]);
-         e < static_cast<std::size_t>(pattern.column[k + 1]); ++e)
-      c[pattern.row[e]] -= gamma * stiffness_values_[e] * b[k];
+    for (auto e = static_cast<std::size_t>(pattern_.column[k]);
+         e < static_cast<std::size_t>(pattern_.column[k + 1]); ++e)
+      c[pattern_.row[e]] -= gamma * mobile_stiffness_[e] * b[k];
 }
 
 void GridSystem::expand(double gamma, const double* b, const double* z, double* x) const {
@@ -352,16 +358,14 @@ void GridSystem::commit(double t, const double* y) {
     }
   }
   committed_time_ = t;
-  double gained = 0.0;
-  for (std::size_t k = 0; k < n; ++k)
-    gained += 0.5 * nodes_.mass[k] * (y[n + k] - start_velocity_[k]) * (y[n + k] + start_velocity_[k]);
+  const double* q = changes_of_particles(y);
   system_.record.external_work = std::exchange(carried_work_, 0.0);
-  system_.record.kinetic = start_kinetic_ + gained + book_driven(t);
+  system_.record.kinetic = start_kinetic_ + mass_.gain(q, start_velocity_.data()) + book_driven(t, q);
   changes_.resize(tail_);
   for (std::size_t k = 0; k < tail_; ++k)
     changes_[k] = y[2 * n + k] - std::exchange(committed_tail_[k], y[2 * n + k]);
   if (works_) system_.record.external_work += changes_.front();
-  reactions_.commit(system_, y + size());
+  reactions_.commit(system_, y + size() + n);
   system_.record.particles_moved = false;
   if (!motions_.empty()) {
     const std::vector<mpm::Configuration> bodies = places();
@@ -390,11 +394,11 @@ void GridSystem::stretch_domains() {
 }
 
 double GridSystem::end_phase(const double* y) {
-  const std::size_t n = nodes_.size();
   const double on_grid = system_.record.kinetic;
   stretch_domains();
-  mpm::fill_field(system_, nodes_, start_velocity_.data(), held_at_start_, Field::velocity_0);
-  mpm::fill_field(system_, nodes_, y + n, held_committed_, Field::new_velocity_0);
+  const std::vector<double> none(nodes_.size(), 0.0);
+  mpm::fill_field(system_, nodes_, none.data(), held_at_start_, Field::velocity_0);
+  mpm::fill_field(system_, nodes_, changes_of_particles(y), held_committed_, Field::new_velocity_0);
   mpm::gather(system_, mpm::Gather::velocity, 1.0);
   for (std::size_t body = 0; body < motions_.size(); ++body)
     system_.bodies[body].particles.turn = motions_[body].turn;

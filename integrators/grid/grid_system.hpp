@@ -6,6 +6,7 @@
 #include "integrators/grid/error_scales.hpp"
 #include "integrators/grid/grid_integrator.hpp"
 #include "integrators/sundials/ark_system.hpp"
+#include "mpm/consistent_mass.hpp"
 #include "mpm/contact/contact.hpp"
 #include "mpm/finite_strain.hpp"
 #include "mpm/loads.hpp"
@@ -21,12 +22,13 @@ namespace vitrum {
 /// The grid over one Lagrangian phase, in which particles keep their places and shape functions. Unknowns:
 /// displacements u_i of the free components of filled nodes since the phase began, their velocities v_i, the
 /// external work where there can be any, and for each pair of bodies with contact its impulse (2):
-///   u' = v,  v' = f_i(u) / m_i,
-/// with the stress of each particle the material's response to (committed state, strain since the last
-/// commit, time since then), the strain being U - 1 of the phase's deformation gradient F = R U. Forces are
-/// the derivative of the energy as a function of that strain, so that an elastic phase conserves energy for
-/// any rotation
-/// (docs/theory/strain-and-stress.md).
+///   u' = v,  v'_i = sum_j M_ij / m_i f_j(u) / m_j,
+/// M the consistent mass: nodes accelerate their particles by sum N f/m, and move as what these project to,
+/// so that a phase knows no motion that particles do not carry on (docs/theory/adaptive.md). The changes
+/// q' = f/m that the particles get when the phase ends are integrals. With the stress of each particle the
+/// material's response to (committed state, strain since the last commit, time since then), the strain being
+/// U - 1 of the phase's deformation gradient F = R U. Forces are the derivative of the energy as a function
+/// of that strain, so that an elastic phase conserves energy for any rotation (docs/theory/strain-and-stress.md).
 class GridSystem final : public sundials::ReducibleSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales. travel: cells that a node goes in a phase.
@@ -37,12 +39,13 @@ class GridSystem final : public sundials::ReducibleSystem {
   void start(double* y);
 
   std::size_t size() const override { return 2 * nodes_.size() + tail_; }
-  /// The impulses of boundaries since the phase began.
-  std::size_t integrals() const override { return reactions_.size(); }
+  /// What nodes have changed the velocities of their particles by, and the impulses of boundaries, since the
+  /// phase began.
+  std::size_t integrals() const override { return nodes_.size() + reactions_.size(); }
   bool rates(double t, const double* y, double* rates) override;
   void error_weights(double* weights) const override;
 
-  const sundials::SparsePattern& pattern() const override { return stiffness_.pattern(); }
+  const sundials::SparsePattern& pattern() const override { return pattern_; }
   bool linearise(double t, const double* y) override;
   void form(double gamma, double* values) const override;
   void reduce(double gamma, const double* b, double* c) const override;
@@ -55,8 +58,8 @@ class GridSystem final : public sundials::ReducibleSystem {
   /// Particles keep their places; the record's kinetic energy is the grid's change added to the particles' at
   /// the start of the phase.
   void commit(double t, const double* y);
-  /// Moves the particles: v += N (v_i - v_i at the start), x += N u_i. Returns the kinetic energy that is
-  /// lost thereby (never gained), J (per radian or per metre).
+  /// Moves the particles: v += N q_i, x += N u_i. Returns the kinetic energy that is lost thereby (never
+  /// gained), J (per radian or per metre).
   double end_phase(const double* y);
 
   /// Longest way of a node that matters (cells), largest strain or turn of a particle, since the phase began.
@@ -93,7 +96,8 @@ class GridSystem final : public sundials::ReducibleSystem {
     std::vector<double> spin;
   };
   void set_loads(double t);
-  double book_driven(double t);
+  double book_driven(double t, const double* q);
+  const double* changes_of_particles(const double* y) const { return y + size(); }
   bool deform(double t, const double* y);
   std::vector<mpm::Configuration> places();
   bool touch();
@@ -112,8 +116,12 @@ class GridSystem final : public sundials::ReducibleSystem {
   mpm::Trial trial_;
   mpm::ReactionIntegrals reactions_;
   mpm::NodalUnknowns nodes_;
+  mpm::ConsistentMass mass_;
   mpm::Stiffness stiffness_;
   std::vector<double> stiffness_values_;
+  sundials::SparsePattern pattern_;       ///< of M diag(1/m) K
+  std::vector<double> mobile_stiffness_;  ///< its values
+  std::vector<std::size_t> diagonal_;     ///< places in it
   std::vector<std::vector<TangentEntries>> tangents_;
   std::vector<Deformation> deformations_;         ///< by body
   std::vector<mpm::ParticleGradient> gradients_;  ///< pointers into them
@@ -124,6 +132,7 @@ class GridSystem final : public sundials::ReducibleSystem {
   mpm::OfBoundaries held_at_start_, held_committed_;
   double start_time_ = 0.0, committed_time_ = 0.0;
   double carried_work_ = 0.0;  ///< done when the phase began, not booked yet
+  double driven_gain_ = 0.0;   ///< kinetic energy by varying velocities of boundaries, committed
   double start_kinetic_ = 0.0, mean_mass_ = 0.0, deformation_ = 0.0;
 };
 

@@ -62,22 +62,6 @@ void warn_of_scheme(const Scene& scene, Warnings& list) {
         scene.at("integrator.scheme")));
 }
 
-void warn_of_long_phases(const Scene& scene, const System& system, const CriticalStep& critical,
-                         Warnings& list) {
-  if (scene.integrator.method != GridMethod::arkode_implicit) return;
-  const double phase =
-      std::min(longest_phase(system, remap_settings(scene.integrator)), scene.end - scene.start);
-  if (!(phase > 20.0 * critical.step)) return;
-  const auto coarse = std::ranges::find(scene.bodies, 1, &BodyDefinition::particles_per_cell);
-  if (coarse != scene.bodies.end())
-    list.push_back(
-        fmt::format("{}: with one particle a cell (body '{}') the grid has motions that no particle sees and "
-                    "only a remap "
-                    "removes; in phases of {:g} s they make bodies too soft; use particles_per_cell = 4 or "
-                    "shorter phases",
-                    scene.at("integrator.remap"), coarse->name, phase));
-}
-
 /// One particle a cell off the middles of cells: wide functions have a shear there that no particle sees, and
 /// what it can move bears no stress in equilibrium (docs/theory/loads.md).
 void warn_of_relaxation(const Scene& scene, Warnings& list) {
@@ -123,7 +107,6 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_duration(scene, system, threads, list);
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);
-  warn_of_long_phases(scene, system, critical, list);
   warn_of_relaxation(scene, list);
   warn_of_snap_back(scene, list);
   for (const MaterialParameters& m : scene.materials)

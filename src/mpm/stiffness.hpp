@@ -5,6 +5,7 @@
 #include "integrators/sundials/ark_system.hpp"
 #include "mpm/contact/patch.hpp"
 #include "mpm/nodal_unknowns.hpp"
+#include "mpm/stencil_nodes.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum::mpm {
@@ -42,13 +43,9 @@ class Stiffness {
            std::vector<double>& values) const;
 
  private:
-  /// Neighbours of a node are told by their offset in [-3, 3]^2.
-  static constexpr int reach = 3, width = 2 * reach + 1, offsets = width * width;
-  template <class Node>
-  static std::size_t offset_between(const Node& a, const Node& b);
   struct Links {
-    std::uint64_t mask = 0;                         ///< offsets that share a particle
-    std::array<std::uint8_t, offsets> first_row{};  ///< rows of a column before those of an offset
+    std::uint64_t mask = 0;                                   ///< offsets that share a particle
+    std::array<std::uint8_t, neighbour_offsets> first_row{};  ///< rows of a column before those of an offset
   };
   /// Share of a particle's motion that an unknown has.
   struct Share {

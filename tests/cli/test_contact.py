@@ -37,7 +37,7 @@ class Contact(CommandLineTest):
 
     def test_fragments(self):
         """Fragments come off at the same step, with the same bits, for any threads and after an interruption."""
-        for method in ("explicit", "arkode-explicit"):
+        for method in ("explicit", "arkode-explicit", "arkode-implicit"):
             run = ("--set", f'integrator.method="{method}"', "--set", 'contact.method="bodies"',
                    *overrides(contact__self="true", contact__friction=0.2, output__every=6e-6, output__checkpoint_every=6e-6, time__end=12e-6))
             whole = self.run_scene(f"pieces-{method}", *run, "--threads", "1", scene=impact)

@@ -10,16 +10,18 @@ using namespace vitrum;
 using namespace vitrum::sundials;
 using namespace vitrum::test;
 
-// Exact integration of a Lagrangian phase conserves kinetic energy of the grid + stored energy; the remap
-// then loses 1/2 dv.(M_lumped - M_consistent).dv, which is never negative.
+// Exact integration of a Lagrangian phase conserves kinetic energy of the grid + stored energy, and the remap
+// gives the particles all of it. Of particles that bear large strains it loses 1/2 q.(m - M).q, which is
+// never negative.
 
 namespace {
 
 /// Two bodies whose particles lie anywhere and move at random.
-MpmRun random_bodies(const std::string& geometry, const std::string& shape, double speed, Random& random) {
+MpmRun random_bodies(const std::string& geometry, const std::string& shape, double speed, Random& random,
+                     const std::string& stress = "") {
   MpmScene scene;
   scene.geometry = geometry, scene.shape = shape;
-  scene.tables = body("block", box({0.0, 0.0}, {5.0, 3.0}), "particles_per_cell = 4") +
+  scene.tables = body("block", box({0.0, 0.0}, {5.0, 3.0}), "particles_per_cell = 4\n" + stress) +
                  body("ball", disk({2.0, 5.5}, 1.4));
   MpmRun run(scene);
   for (Body& b : run.system.bodies)
@@ -34,7 +36,7 @@ MpmRun random_bodies(const std::string& geometry, const std::string& shape, doub
 }
 
 struct PhaseEnergies {
-  double before, on_grid, after, lumped_minus_consistent;
+  double before, on_grid, after, lumped_minus_consistent;  ///< 1/2 q.(m - M).q
 };
 
 /// One phase by order 5 and a tight tolerance.
@@ -48,7 +50,6 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
   solver.set_shortest_step(1e-9 * duration);
   grid.start(solver.y());
   const std::size_t n = grid.size() / 2;
-  const std::vector<double> start(solver.y() + n, solver.y() + 2 * n);
   PhaseEnergies e{mpm::kinetic_energy(system) + stored_energy(system), 0.0, 0.0, 0.0};
   const auto velocities = [&] {
     std::vector<VectorColumns> v;
@@ -71,7 +72,7 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
     for (auto at = grid.pattern().column[k]; at < grid.pattern().column[k + 1]; ++at)
       if (grid.pattern().row[static_cast<std::size_t>(at)] == static_cast<std::int64_t>(k))
         e.lumped_minus_consistent +=
-            0.5 * mass[static_cast<std::size_t>(at)] * std::pow(solver.y()[n + k] - start[k], 2);
+            0.5 * mass[static_cast<std::size_t>(at)] * std::pow(solver.y()[grid.size() + k], 2);
   const double loss = grid.end_phase(solver.y());
   e.after = mpm::kinetic_energy(system) + stored_energy(system);
   const auto now = velocities();
@@ -86,8 +87,7 @@ PhaseEnergies take_phase(MpmRun& run, double duration, double speed) {
 
 }  // namespace
 
-TEST_CASE("A phase conserves energy, and its remap loses what the masses say: to 1e-12, for random particles",
-          "[verification][energy]") {
+TEST_CASE("A phase and its remap conserve energy to 1e-12, for random particles", "[verification][energy]") {
   Random random(23);
   for (const char* geometry : {"plane-strain", "axisymmetric"})
     for (const char* shape : {"linear", "gimp", "bspline2"})
@@ -97,10 +97,23 @@ TEST_CASE("A phase conserves energy, and its remap loses what the masses say: to
         const PhaseEnergies e = take_phase(run, 1.5, speed);
         CAPTURE(geometry, shape, repeat, e.before, e.on_grid - e.before, e.after - e.before);
         CHECK(std::abs(e.on_grid - e.before) < 1e-12 * e.before);
-        CHECK(std::abs(e.on_grid - e.after - e.lumped_minus_consistent) < 1e-12 * e.before);
-        CHECK(e.lumped_minus_consistent > 0.0);
-        CHECK(e.after < e.before);
+        CHECK(std::abs(e.on_grid - e.after) < 1e-12 * e.before);
+        CHECK(e.lumped_minus_consistent > 1e-3 * e.before);  // what lumped masses would lose
       }
+}
+
+TEST_CASE("Where strains are large a remap loses what the masses say, and gains nothing",
+          "[verification][energy]") {
+  Random random(31);
+  for (const char* shape : {"linear", "gimp"}) {
+    // The block alone bears more than ConsistentMass::lumped_beyond.
+    MpmRun run = random_bodies("plane-strain", shape, 0.01, random, "stress = [-0.05, -0.1, -0.03, 0.0]");
+    const PhaseEnergies e = take_phase(run, 0.3, 0.01);
+    CAPTURE(shape, e.before, e.on_grid - e.before, e.after - e.before);
+    CHECK(std::abs(e.on_grid - e.before) < 1e-11 * e.before);
+    CHECK(e.after < e.on_grid - 1e-6 * e.before);
+    CHECK(e.on_grid - e.after < e.lumped_minus_consistent);
+  }
 }
 
 TEST_CASE(
@@ -113,7 +126,7 @@ TEST_CASE(
     const PhaseEnergies e = take_phase(run, 0.5, 0.1);
     CAPTURE(shape, (e.on_grid - e.before) / e.before, (e.after - e.before) / e.before);
     CHECK(std::abs(e.on_grid - e.before) < 1e-11 * e.before);
-    CHECK(e.after < e.before);
+    CHECK(std::abs(e.on_grid - e.after) < 1e-12 * e.before);
   }
 }
 
@@ -121,7 +134,7 @@ TEST_CASE("A body that turns by a quarter in one phase is not strained", "[verif
   MpmScene scene;
   scene.method = "arkode-implicit";
   scene.pace =
-      "order = 3\nrtol = 1e-6\nvelocity_scale = 0.01\nstrain_scale = 1e-3\nremap = 1e9\nremap_travel = "
+      "order = 3\nrtol = 1e-5\nvelocity_scale = 0.01\nstrain_scale = 1e-3\nremap = 1e9\nremap_travel = "
       "1e9\nremap_strain = 1e9";
   scene.tables = body("block", box({-2.0, -2.0}, {2.0, 2.0}),
                       "particles_per_cell = 4\nvelocity_gradient = [[0.0, -1e-3], [1e-3, 0.0]]");
@@ -135,5 +148,5 @@ TEST_CASE("A body that turns by a quarter in one phase is not strained", "[verif
   for (const auto& e : run.particles().elastic_strain)
     for (const double x : e) largest = std::max(largest, std::abs(x));
   CAPTURE(largest);
-  CHECK(largest < 1e-4);
+  CHECK(largest < 3e-4);
 }

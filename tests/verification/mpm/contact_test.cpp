@@ -80,15 +80,16 @@ TEST_CASE("Contact keeps energy and momentum under ARKODE to its tolerance, with
 }
 
 TEST_CASE(
-    "Bodies that meet within a Lagrangian phase feel each other in it: its energy is kept but for the remaps",
+    "Bodies that meet within a Lagrangian phase feel each other in it: its energy is kept, over remaps too",
     "[contact]") {
   MpmRun run(askew("arkode-implicit", "1e-4\nremap_travel = 0.5"));
   const std::array<double, 2> momentum = total_momentum(run.system);
   run.advance(15e-6);
   const IntegratorState state = run.integrator.state();
-  INFO("phases " << state.phases << " loss " << state.remap_loss << " residual " << run.energy().residual()
-                 << " steps " << state.counters.steps << " newton " << state.counters.newton_iterations);
-  CHECK(run.energy().residual() - state.remap_loss == Approx(0.0).margin(2e-3 * run.energy().initial));
+  INFO("phases " << state.phases << " residual " << run.energy().residual() << " steps "
+                 << state.counters.steps << " newton " << state.counters.newton_iterations);
+  CHECK(state.phases > 5);
+  CHECK(run.energy().residual() == Approx(0.0).margin(2e-3 * run.energy().initial));
   for (std::size_t c = 0; c < 2; ++c)
     CHECK(total_momentum(run.system)[c] == Approx(momentum[c]).epsilon(1e-5));
   CHECK(run.system.contact->history()[0].impulse[1] < -0.1 * std::abs(momentum[1]));
@@ -110,7 +111,7 @@ void collide_in_frames(double speed) {
   // Of the energy in a frame. usl and the remaps of the implicit method damp; arkode-explicit does as its
   // tolerance lets it.
   const std::map<std::string, double> most_lost{
-      {"usf", 0.01}, {"musl", 0.0125}, {"usl", 0.05}, {"arkode-explicit", 0.025}, {"arkode-implicit", 0.08}};
+      {"usf", 0.01}, {"musl", 0.0125}, {"usl", 0.05}, {"arkode-explicit", 0.025}, {"arkode-implicit", 0.02}};
   Random random(29);
   double least = 2.0, greatest = 0.0;
   for (const Integrator& integrator : five_integrators)
@@ -231,23 +232,27 @@ TEST_CASE("Newton's cradle: the last of three bars flies on", "[contact]") {
   CHECK(std::abs(run.energy().relative_residual()) < 0.01);
 }
 
-TEST_CASE("A cylinder on a slope rolls with about two thirds of the acceleration with which it slides",
+TEST_CASE("A cylinder on a slope rolls with two thirds of the acceleration with which it slides",
           "[contact]") {
-  // c = 1, cells of 1. It begins in touch and bounces: while it flies nothing turns it.
-  constexpr double g = 1e-4, slope = 0.5, radius = 6.0, duration = 400.0;
+  // (A sphere would roll with five sevenths: in the plane all that rolls is a cylinder.) c = 1, cells of 1.
+  // Its weight comes slowly, so that it does not bounce: while it flies nothing turns it.
+  constexpr double g = 1e-4, slope = 0.5, radius = 6.0, rise = 200.0, duration = 400.0;
   for (const bool rolls : {true, false}) {
     CAPTURE(rolls);
     MpmScene scene;
     scene.shape = "gimp", scene.scheme = "musl", scene.pace = "";
-    scene.tables = fmt::format("[contact]\nmethod = \"bodies\"\nfriction = {}\n", rolls ? 0.5 : 0.0) +
-                   body("ground", box({-8.0, -4.0}, {24.0, 0.0}), "particles_per_cell = 4") +
-                   body("cylinder", disk({0.0, radius}, radius), "particles_per_cell = 4") +
-                   hold("[-inf, -inf]", "[inf, -1.0]", "\"x\", \"y\"") +
-                   fmt::format("[gravity]\nacceleration = [{}, {}]\n", g * slope, -g);
+    scene.tables =
+        fmt::format("[contact]\nmethod = \"bodies\"\nfriction = {}\n", rolls ? 0.5 : 0.0) +
+        body("ground", box({-8.0, -4.0}, {24.0, 0.0}), "particles_per_cell = 4") +
+        body("cylinder", disk({0.0, radius}, radius), "particles_per_cell = 4") +
+        hold("[-inf, -inf]", "[inf, -1.0]", "\"x\", \"y\"") +
+        fmt::format("[gravity]\nacceleration = [\"={0} * min(1, t / {2})\", \"=-{1} * min(1, t / {2})\"]\n",
+                    g * slope, g, rise);
     MpmRun run(scene);
     run.advance(duration);
-    const double v = mean_velocity(run, 1), free = g * slope * duration;
-    CHECK(v == Approx(rolls ? 2.0 / 3.0 * free : free).epsilon(rolls ? 0.1 : 0.05));
+    const double v = mean_velocity(run, 1), free = g * slope * (duration - 0.5 * rise);
+    INFO(v / free);
+    CHECK(v == Approx(rolls ? 2.0 / 3.0 * free : free).epsilon(rolls ? 0.04 : 0.03));
     CHECK(std::abs(run.energy().relative_residual()) < 0.01);
   }
 }
