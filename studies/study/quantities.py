@@ -112,7 +112,7 @@ def _evaluate(node, found, source):
 
 
 def of_every_scene(scene):
-    """Per body: velocity along the axis (in plane strain along both), kinetic energy; what can fail: localised, separated, largest fragment, first events."""
+    """Per body: velocity along the axis (in plane strain along both), kinetic energy; what can fail: localised, separated, area and volume of cracks, largest fragment, first events."""
     axes = {1: "z"} if scene["space"]["geometry"] == "axisymmetric" else {0: "x", 1: "y"}
     for body in scene["body"]:
         name, path = body["name"], f'bodies."{body["name"]}"'
@@ -123,6 +123,8 @@ def of_every_scene(scene):
         if "decohesion" in material:
             yield Quantity(f"localised of {name}", f"{path}.localised")
             yield Quantity(f"separated of {name}", f"{path}.separated")
+            yield Quantity(f"crack area of {name}", f"{path}.crack_area", unit="m²" if scene["space"]["geometry"] == "axisymmetric" else "m")
+            yield Quantity(f"localised volume of {name}", f"{path}.localised_volume", unit="m³" if scene["space"]["geometry"] == "axisymmetric" else "m²")
             yield Quantity(f"largest fragment of {name}", f"{path}.largest_fragment", unit="kg")
             yield Quantity(f"first localisation of {name}", f"{path}.first_localisation.time", unit="s")
             yield Quantity(f"first separation of {name}", f"{path}.first_separation.time", unit="s")
