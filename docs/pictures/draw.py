@@ -3,7 +3,7 @@
 import importlib
 import sys
 
-drawings = ("schemes", "systems", "wave", "modes", "curves", "patches", "energy")
+drawings = ("schemes", "systems", "wave", "modes", "curves", "patches", "energy", "blast_window", "tempered_drop", "ring_on_ring")
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or drawings:

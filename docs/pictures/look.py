@@ -37,7 +37,18 @@ def arrow(axes, start, end, text="", bend=0.0, colour="black", shift=(0, 0), **m
         axes.text(*middle, text, **({"ha": "center", "va": "center", "fontsize": 7.5, "color": colour} | more))
 
 
+def squares(axes, position, side, values, **more):
+    """Particles as squares where they are, mm, coloured by a field; small as a picture within the drawing."""
+    from matplotlib.collections import PolyCollection
+    half = 0.5e3 * side[:, None, None] * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+    drawn = PolyCollection(1e3 * position[:, None, :] + half, array=values, rasterized=True, linewidth=0, antialiased=False, **more)
+    axes.add_collection(drawn)
+    axes.autoscale_view()
+    axes.set(aspect="equal", xlabel="r, mm", ylabel="z, mm")
+    return drawn
+
+
 def save(figure, name):
     folder.mkdir(exist_ok=True)
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None, "Creator": "vitrum docs/pictures"})
+    figure.savefig(folder / f"{name}.svg", dpi=120, metadata={"Date": None, "Creator": "vitrum docs/pictures"})
     plt.close(figure)
