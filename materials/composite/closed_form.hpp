@@ -90,6 +90,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   using Models::separate;
   using Models::snap_back;
   using Models::start_decohesion;
+  using Models::stays_compressed;
   using Models::surface_acts;
   using Models::traction;
   using Models::von_mises_;

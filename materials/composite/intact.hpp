@@ -130,7 +130,8 @@ bool CompositeClosedForm<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
                                                 [[maybe_unused]] const CompositeState& to) const {
   if constexpr (C && D) {
     const double t = trace(to.elastic_strain);
-    if (leg.tension && to.crack_density > leg.start.crack_density && t > 0.0) {
+    const bool compressed = !decohesion_.parameters().partial_compression && stays_compressed(from, to);
+    if (leg.tension && to.crack_density > leg.start.crack_density && t > 0.0 && !compressed) {
       const auto above_mean = [&](const SymmetricTensor& e) {
         return largest_normal_strain(e) - trace(e) / 3.0;
       };

@@ -104,7 +104,9 @@ class CompositeModels {
   double largest_normal_strain(const SymmetricTensor& strain) const;
   double damage_localisation(const CompositeState& s) const;
   double flow_localisation(const CompositeState& s, const Moduli& moduli, double modulus) const;
+  static double least_principal_strain(const SymmetricTensor& strain);
   double compression(const CompositeState& s) const;
+  bool stays_compressed(const CompositeState& from, const CompositeState& to) const;
   void start_decohesion(bool tension, bool damage_grows, CompositeState& s, Dissipation& dissipation) const;
   CompositeMode localised_mode(const CompositeState& s) const;
   PlaneTraction traction(const DecohesionPlane& plane, const SymmetricTensor& strain,

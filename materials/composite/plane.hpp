@@ -12,14 +12,33 @@ double CompositeModels<D, Y, C>::largest_normal_strain(const SymmetricTensor& e)
   return decohesion_.parameters().search_all_planes ? std::max(in_plane, e.tt) : in_plane;
 }
 
+/// (The hoop direction is a principal one.)
+template <bool D, Yielding Y, bool C>
+double CompositeModels<D, Y, C>::least_principal_strain(const SymmetricTensor& e) {
+  const double in_plane = 0.5 * (e.rr + e.zz) - std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
+  return std::min(in_plane, e.tt);
+}
+
 /// The largest compressive principal stress under tension, over 2 G_bar and the size of the strain; negative
-/// where there is none. (The hoop direction is a principal one. G_bar itself may vanish.)
+/// where there is none. (G_bar itself may vanish.)
 template <bool D, Yielding Y, bool C>
 double CompositeModels<D, Y, C>::compression(const CompositeState& s) const {
   const SymmetricTensor& e = s.elastic_strain;
-  const double in_plane = 0.5 * (e.rr + e.zz) - std::sqrt(0.25 * (e.rr - e.zz) * (e.rr - e.zz) + e.rz * e.rz);
   const double lateral = damage_.lateral_ratio(s.crack_density / crack_density_limit);
-  return -(lateral * trace(e) + std::min(in_plane, e.tt)) / norm(e);
+  return -(lateral * trace(e) + least_principal_strain(e)) / norm(e);
+}
+
+/// Whether a principal stress is compressive in every state between two of a straight piece: the least
+/// principal strain changes by no more than the strain does, the others are monotone.
+template <bool D, Yielding Y, bool C>
+bool CompositeModels<D, Y, C>::stays_compressed(const CompositeState& from, const CompositeState& to) const {
+  const SymmetricTensor &a = from.elastic_strain, &b = to.elastic_strain;
+  const double lateral = std::max(damage_.lateral_ratio(from.crack_density / crack_density_limit),
+                                  damage_.lateral_ratio(to.crack_density / crack_density_limit));
+  const double traces =
+      lateral * (lateral > 0.0 ? std::max(trace(a), trace(b)) : std::min(trace(a), trace(b)));
+  const double least = std::max(least_principal_strain(a), least_principal_strain(b)) + 0.5 * norm(b - a);
+  return traces + least < -tolerance::on_surface * std::max(norm(a), norm(b));
 }
 
 /// <= 0 where growing damage admits a discontinuity (Phi), and the scene's reading of the paper a

@@ -18,7 +18,7 @@ class Readings(StudyTest):
     def test_files(self):
         self.assert_figures("matrix", "effects")
         self.assert_page("Statement by statement", "The fewest departures", "What the paper would have had to print", "a lead, not a finding")
-        self.assert_page_does_not_state("R = 400 mm", "0.5 mm.{", "full factorial of\n")
+        self.assert_page_does_not_state("R = 400 mm", "full factorial", "six members")
 
     def test_verdicts(self):
         rows = self.table("verdicts", ["part", "integration", "statement", "verdict", "found", "made", *[factor.key for factor in factors]])
