@@ -218,7 +218,7 @@ TEST_CASE("solvers agree on random paths whatever the reading, and the closed fo
 
 TEST_CASE("looking for a localisation that compression forbids takes no longer than another",
           "[material][decohesion][reading]") {
-  // Damage grows far beyond the bifurcation while a stress stays compressive: 200,000 increments, each of
+  // Damage grows far beyond the bifurcation while a stress stays compressive: 20,000 increments, each of
   // which would be halved a million times without a bound.
   const MaterialParameters p =
       glass_with([](MaterialParameters& g) { g.decohesion->partial_compression = false; });
