@@ -225,26 +225,25 @@ const Table& body_table() {
   static const Table table = [] {
     Fields<B> rows{{"name", &B::name, "unique; names the body in results and messages", required},
                    {"material", &B::material, "NAME of a [material.NAME]", required}};
-    const Fields<B>
-        shapes = shape_rows<B>(),
-        others{
-            union_row(),
-            hole_row<B>(),
-            {"particles_per_cell", &B::particles_per_cell, schema::OneOf{{1, 4, 9, 16}},
-             "n x n particles in each cell"},
-            Field<B>("velocity", &B::velocity, "m/s", intervals::finite, "initial velocity at the origin")
-                .over_place(),
-            {"velocity_gradient", &B::velocity_gradient, "1/s", intervals::finite,
-             "initial velocity = `velocity` + gradient x position"},
-            Field<B>("stress", &B::stress, "Pa", intervals::finite,
-                     "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
-                .over_place(),
-            {"relax", &B::relax,
-             "before the start, find the equilibrium of the stress under the loads that act then: particles "
-             "move and "
-             "strain, elastically and with no velocity"},
-            {"perturbation", &B::perturbation, perturbation_table(),
-             "random displacements of the particles, for ensembles; absent: none"}};
+    const Fields<B> shapes = shape_rows<B>(),
+                    others{union_row(),
+                           hole_row<B>(),
+                           {"particles_per_cell", &B::particles_per_cell, schema::OneOf{{1, 4, 9, 16}},
+                            "n x n particles in each cell"},
+                           Field<B>("velocity", &B::velocity, "m/s", intervals::finite,
+                                    "initial velocity at the origin")
+                               .over_place(),
+                           {"velocity_gradient", &B::velocity_gradient, "1/s", intervals::finite,
+                            "initial velocity = `velocity` + gradient x position"},
+                           Field<B>("stress", &B::stress, "Pa", intervals::finite,
+                                    "initial stress (rr, zz, tt, rz) or (xx, yy, zz, xy), tension positive")
+                               .over_place(),
+                           {"relax", &B::relax,
+                            "before the start, find the stress nearest to that given which is in equilibrium "
+                            "under the loads "
+                            "that act then, elastically; nothing moves"},
+                           {"perturbation", &B::perturbation, perturbation_table(),
+                            "random displacements of the particles, for ensembles; absent: none"}};
     rows.insert(rows.end(), shapes.begin(), shapes.end());
     rows.insert(rows.end(), others.begin(), others.end());
     Table t = table_of<B>("[[body]]", "One table for each body, with exactly one shape.", rows);
