@@ -17,21 +17,23 @@ class Stencils {
   /// r, z: positions of the chunk's particles, m.
   Stencils(const Chunk& chunk, const Block& block, double per_cell, const Body& body, const ColumnReader& r,
            const ColumnReader& z) {
+    const std::int32_t column = block.column * block_side - 1, row = block.row * block_side - 1;
+    const double *x = r.data(), *y = z.data();
+    const std::size_t size = chunk.size();
     if constexpr (kind == ShapeKind::cpgimp) {
       const ColumnReader half_r(chunk, body.particles.domain[0]), half_z(chunk, body.particles.domain[1]);
       const double *hr = half_r.data(), *hz = half_z.data();
       // The last node of the tile is the last that a particle of the block can touch.
-      const std::int32_t last_column = (block.column + 1) * block_side - 2,
-                         last_row = (block.row + 1) * block_side - 2;
-      fill(chunk.size(), block, r.data(), z.data(), [=](std::size_t k, double x, double y) {
-        return std::pair(Shape::at(x * per_cell, hr[k] * per_cell, last_column),
-                         Shape::at(y * per_cell, hz[k] * per_cell, last_row));
-      });
+      const std::int32_t last_column = column + block_side - 1, last_row = row + block_side - 1;
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k)
+        put(k, column, row, Shape::at(x[k] * per_cell, hr[k] * per_cell, last_column),
+            Shape::at(y[k] * per_cell, hz[k] * per_cell, last_row));
     } else {
       const double half = body.particle_half_size * per_cell;
-      fill(chunk.size(), block, r.data(), z.data(), [=](std::size_t, double x, double y) {
-        return std::pair(Shape::at(x * per_cell, half), Shape::at(y * per_cell, half));
-      });
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < size; ++k)
+        put(k, column, row, Shape::at(x[k] * per_cell, half), Shape::at(y[k] * per_cell, half));
     }
   }
 
@@ -46,16 +48,11 @@ class Stencils {
   }
 
  private:
-  template <class At>
-  void fill(std::size_t size, const Block& block, const double* x, const double* y, At at) {
-    const std::int32_t column = block.column * block_side - 1, row = block.row * block_side - 1;
-#pragma GCC ivdep
-    for (std::size_t k = 0; k < size; ++k) {
-      const auto [wr, wz] = at(k, x[k], y[k]);
-      entry_[k] = (wz.first - row) * tile_columns + (wr.first - column);
-      store(wr, 0, k, std::make_index_sequence<count>{});
-      store(wz, 1, k, std::make_index_sequence<count>{});
-    }
+  VITRUM_INLINE void put(std::size_t k, std::int32_t column, std::int32_t row,
+                         const Weights1<Shape::count>& wr, const Weights1<Shape::count>& wz) {
+    entry_[k] = (wz.first - row) * tile_columns + (wr.first - column);
+    store(wr, 0, k, std::make_index_sequence<count>{});
+    store(wz, 1, k, std::make_index_sequence<count>{});
   }
   /// A loop inside a loop would not be vectorised.
   template <std::size_t... a>
