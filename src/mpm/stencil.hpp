@@ -38,9 +38,13 @@ class Stencils {
   }
 
   /// Tile entry of the first node of particle k.
-  std::size_t entry(std::size_t k) const { return static_cast<std::size_t>(entry_[k]); }
+  std::size_t entry(std::size_t k) const {
+    return static_cast<std::size_t>(entry_[k]);
+  }
   /// N along r (axis 0) or z (axis 1) at the a-th node of particle k.
-  double value(std::size_t axis, std::size_t a, std::size_t k) const { return value_[axis][a][k]; }
+  double value(std::size_t axis, std::size_t a, std::size_t k) const {
+    return value_[axis][a][k];
+  }
   /// h dN/dx.
   double slope(std::size_t axis, std::size_t a, std::size_t k) const {
     if constexpr (kind == ShapeKind::linear) return a == 0 ? -1.0 : 1.0;  // known when compiling: no product
