@@ -24,11 +24,11 @@ constexpr double of_block =
     mpm::block_nodes * (mpm::field_count * 8.0 + 4.0) + static_cast<double>(sizeof(mpm::TileData)) + 400.0;
 /// arkode-explicit: vectors of 9 unknowns a particle, some for each stage and some besides.
 constexpr double of_unknowns = 9.0 * 8.0, vectors = 9.5, vectors_of_stage = 1.0;
-/// arkode-implicit: vectors over nodes and particles, tangents, and the matrix.
-constexpr double of_implicit_cell = 3600.0;
+/// arkode-implicit: vectors over nodes and particles, tangents, the masses, and the matrix.
+constexpr double of_implicit_cell = 7000.0;
 /// The factors and their copy (KluFactors): entries grow with a body's width in cells, less than in
 /// proportion (minimum degree).
-constexpr double of_factor = 600.0, fill_exponent = 0.45, wider_stencil = 4.6;
+constexpr double of_factor = 2500.0, fill_exponent = 0.45, wider_stencil = 3.2;
 
 double blocks(const ShapeMeasures& m, double cell) {
   const double side = mpm::block_side * cell;
