@@ -220,7 +220,8 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
     } else if (mode.plane == Plane::open) {
       g.add(CompositeGuard::closure, -s.opening_n * per_size / s.effective_length);
     } else if (mode.plane == Plane::closed) {
-      g.add(CompositeGuard::opening, (has_faces ? traction_now.normal / elastic_.p_wave() : t) * per_size);
+      g.add(CompositeGuard::opening,
+            has_faces ? traction_now.normal * per_size / elastic_.p_wave() : t * per_size);
     }
   }
 }
