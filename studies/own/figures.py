@@ -74,7 +74,7 @@ def error_bars(found, converged):
         return None
     figure, axes = plt.subplots(figsize=(6.8, 0.9 + 0.62 * len(shown)))
     for n, (kind, label) in enumerate(kinds.items()):
-        values = [max(bars.relative.get(kind) or 0.0, 1e-12) for bars in shown]
+        values = [max(bars.relative.get(kind, 0.0), 1e-12) for bars in shown]
         axes.barh(np.arange(len(shown)) + 0.2 * (n - 1.5), values, height=0.19, color=colours[n], label=label)
     axes.axvline(converged, color="#888888", linewidth=0.8, linestyle="--")
     axes.set_xscale("log")

@@ -8,7 +8,7 @@ from study import bars, ladders, plan as plans, sweep
 from study.figures import plt, save, style
 from study.page import machine, run_times
 from study.provenance import commit, version
-from study.results import Study, case_rows
+from study.results import Study, case_rows, work
 from study.tables import number, write_csv
 from vitrum.report import charts
 
@@ -20,11 +20,17 @@ _screen: dict = {**charts.style, "font.size": 9, "axes.titlesize": 8.5}
 shown_of_failed = 50  # runs that did not come to their end, in the page
 
 
+def command(study, quick):
+    """What makes the study of a file."""
+    return f"vitrum-study {study.plan['file']}{' --quick' if quick else ''}"
+
+
 class Sheet:
     """Where a study's tables and figures go: into files and the page, or, of a study that is under way, into the page alone."""
 
-    def __init__(self, study, write):
+    def __init__(self, study, write, quick):
         self.study, self.write = study, write
+        self.made = command(study, quick), version(), commit()
 
     def _name(self, name):
         return "-".join(filter(None, (self.study.plan["key"], name)))
@@ -39,7 +45,7 @@ class Sheet:
         if figure is None:
             return None
         if self.write:
-            save(figure, self.study.out / "figures", self._name(name))
+            save(figure, self.study.out / "figures", self._name(name), made=self.made)
         plt.close(figure)
         with matplotlib.rc_context({**matplotlib.rcParamsDefault, **_screen}):
             figure = draw()
@@ -101,13 +107,23 @@ def _error_bars(study, sheet):
     return {"awaited": False, "figure": sheet.figure("error-bars", lambda: figures.error_bars(every, converged)), "members": sheet.figure("members", lambda: figures.members(every)),
             "rows": [(row["quantity"], _with_unit(row["value"], row["unit"]), *[bar(row, kind) for kind in bars.kinds], row["verdict"], row["effort"]) for row in rows],
             "distributions": [_compared(each, row) for each, row in found if row["verdict"] == "chaotic" and row["same_distribution"] is not None],
-            "best": bars.best_of_all(every, converged), "count": study.plan["members"], "converged": _percent(converged)}
+            "idle": list(_idle(study)), "best": bars.best_of_all(every, converged), "count": study.plan["members"], "converged": _percent(converged)}
+
+
+def _idle(study):
+    """Where stability limited steps, a finer tolerance moves nothing: the bar of time is less than the error of time."""
+    base = study.named("base")[0]
+    for what, name in (("the scene as it is", base), *((study.cases[name]["effort"], name) for name in study.there("refined", point=None, kind="time"))):
+        if share := work(study, name).get("tolerance_idle"):
+            yield f"{what}: the tolerance was idle in {_percent(share)} of the steps, which stability limited"
 
 
 def _compared(each, row):
     """What the two ensembles of a chaotic quantity say of each other."""
-    return (f"{row['quantity']}: mean {_with_unit(row['mean'], row['unit'])}; as it is and finer in time {'differ' if row['same_distribution'] < 0.05 else 'do not differ more than chance'} "
-            f"(Kolmogorov-Smirnov, p = {row['same_distribution']:.2g}, {len(each.members)} and {len(each.finer)} members)")
+    least, counts = each.least_probability, f"{len(each.members)} and {len(each.finer)} members"
+    differ = "differ" if row["same_distribution"] < 0.05 else "do not differ more than chance"
+    said = f"{differ} (Kolmogorov-Smirnov, p = {row['same_distribution']:.2g}, {counts})" if least < 0.05 else f"cannot be told apart by {counts} (Kolmogorov-Smirnov, p at least {least:.2g})"
+    return f"{row['quantity']}: mean {_with_unit(row['mean'], row['unit'])}; as it is and finer in time {said}"
 
 
 def _sweep(study, sheet):
@@ -148,10 +164,16 @@ def _distribution(row, unit):
 _parts = {"trade": _trade, "error-bars": _error_bars, "sweep": _sweep, "methods": _methods}
 
 
-def _section(study, write):
+def _units(sheet):
+    """Of the columns of cases.csv and sweep.csv, whose names scripts know: what they are in, and where it stands in a run's summary."""
+    sheet.table("units", [*({"column": each.name, "unit": each.unit, "from": each.source} for each in sheet.study.quantities), {"column": "seconds", "unit": "s", "from": "wall_seconds"}])
+
+
+def _section(study, write, quick):
     """What the page says of one file."""
-    sheet, cases = Sheet(study, write), list(case_rows(study))
+    sheet, cases = Sheet(study, write, quick), list(case_rows(study))
     sheet.table("cases", cases)
+    _units(sheet)
     plan = study.plan
     failed = [(row["case"], row["status"], row["message"]) for row in cases if row["status"] not in ("complete", "to come")]
     return {"title": plan["title"], "runs": sum(map(len, plans.jobs(plan).values())), "failed": failed[:shown_of_failed], "failures": len(failed), "scene": plan["scene"],
@@ -173,8 +195,8 @@ def write(out, quick, name="report.html", studies=None, state=None, refresh=None
     count, seconds = run_times(out)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(here), autoescape=True, undefined=jinja2.StrictUndefined)
     text = environment.get_template("page.html").render(
-        title=studies[0].plan["title"] if studies else f"Study in {pathlib.Path(out).resolve().name}", studies=[_section(study, files) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, state=state,
-        made=f"{version()}; commit {commit()}; {datetime.date.today().isoformat()}; {machine()}; {count:,} runs, {seconds:,.0f} s together")
+        title=studies[0].plan["title"] if studies else f"Study in {pathlib.Path(out).resolve().name}", studies=[_section(study, files, quick) for study in studies], css=css.read_text(), quick=quick, refresh=refresh, state=state,
+        made=f"{'' if state else '; '.join(command(study, quick) for study in studies) + '; '}{version()}; commit {commit()}; {datetime.date.today().isoformat()}; {machine()}; {count:,} runs, {seconds:,.0f} s together")
     following = pathlib.Path(out) / f".{name}.next"
     following.write_text(text, encoding="utf-8")
     following.replace(pathlib.Path(out) / name)

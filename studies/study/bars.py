@@ -1,4 +1,5 @@
 """Error bars: what refinements and rounding move a quantity by, and what that means."""
+import textwrap
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -6,32 +7,87 @@ import numpy as np
 
 from study.file import Quantity, bars as kinds
 
+confidence = 0.95
+
+
+@dataclass(frozen=True)
+class Effort:
+    """A run with one thing refined. `kind`: of error that it shows; `moved`: distance from the run as it is, over the scale; `seconds`: how much longer it took."""
+    kind: str
+    value: float
+    moved: float
+    seconds: float
+
 
 @dataclass
 class Bars:
-    """Of one quantity at one point; `relative`: kind -> bar over the quantity's scale, None where it was not measured."""
+    """Of one quantity at one point. `efforts`: name -> Effort; `members`: of the ensemble around the run as it is, `finer`: around the one that is finer in time;
+    `failures`: runs that did not come to their end, in words; `undecided`: the value is there in some runs only."""
     quantity: Quantity
     value: float | None
     scale: float
-    relative: dict
-    efforts: dict = field(default_factory=dict)  # effort -> (kind, what it moves, seconds more)
+    efforts: dict = field(default_factory=dict)
     members: list = field(default_factory=list)
     finer: list = field(default_factory=list)
-    undecided: bool = False  # the value is there in some runs only
+    failures: list = field(default_factory=list)
+    undecided: bool = False
+
+    @cached_property
+    def relative(self):
+        """Kind -> bar over the scale: the most that an effort moves, and half the range of the members. A kind that was not measured is absent."""
+        return self._largest_of(self.efforts.values())
+
+    @cached_property
+    def noise(self):
+        """(centre, bound): of what lies farther from the centre chance is no explanation; no ensemble: nothing is. The run as it is counts as a member. Standard
+        deviation s of both ensembles of n and m, about their own means; a single run more is off by s sqrt(1 + 1/n); bound of 95 % by Student's t, shared by all efforts (Bonferroni)."""
+        from scipy.stats import t
+        ensemble = [self.value, *self.members]
+        free = len(ensemble) - 1 + max(len(self.finer) - 1, 0)
+        if not self.members or not self.efforts:
+            return self.value, 0.0
+        squares = sum(np.sum((np.array(each) - np.mean(each)) ** 2) for each in (ensemble, self.finer) if each)
+        bound = t.ppf(1.0 - (1.0 - confidence) / (2.0 * len(self.efforts)), free)
+        return float(np.mean(ensemble)), float(bound * np.sqrt(squares / free * (1.0 + 1.0 / len(ensemble))))
+
+    @cached_property
+    def shown(self):
+        """Efforts that move the quantity by more than chance explains."""
+        centre, bound = self.noise if self.efforts else (0.0, 0.0)
+        return {name: effort for name, effort in self.efforts.items() if abs(effort.value - centre) > bound or bound == 0.0}
+
+    @cached_property
+    def beyond_chance(self):
+        """As `relative`, of the efforts that are shown."""
+        return self._largest_of(self.shown.values())
+
+    def _largest_of(self, efforts):
+        found: dict[str, float] = {}
+        for effort in efforts:
+            found[effort.kind] = max(effort.moved, found.get(effort.kind, 0.0))
+        if len(self.members) > 1:
+            found["chaos"] = _half_range(self.members) / self.scale
+        return found
 
     @property
     def largest(self):
-        """The kind of the largest bar; chaos, where the others are no more than two members may differ by, twice its bar: a pair of runs cannot tell them apart."""
-        known = {kind: bar * (2.0 if kind == "chaos" else 1.0) for kind, bar in self.relative.items() if bar is not None}
-        return max(known, key=known.__getitem__) if known else None
+        """The kind of the largest bar, of those that chance does not explain, and of chaos."""
+        return max(self.beyond_chance, key=self.beyond_chance.__getitem__, default=None)
 
     @cached_property
     def probability(self):
         """That two ensembles as different as these come of one distribution (two-sample Kolmogorov-Smirnov); None: not asked."""
-        if len(self.members) < 2 or len(self.finer) < 2:
-            return None
-        from scipy.stats import ks_2samp
-        return float(ks_2samp(self.members, self.finer).pvalue)
+        return _same(self.members, self.finer) if min(len(self.members), len(self.finer)) > 1 else None
+
+    @property
+    def least_probability(self):
+        """The least that so many members can say, however far apart."""
+        return _same(range(len(self.members)), range(len(self.members), len(self.members) + len(self.finer)))
+
+
+def _same(one, two):
+    from scipy.stats import ks_2samp
+    return float(ks_2samp(one, two).pvalue)
 
 
 def _half_range(values):
@@ -39,37 +95,49 @@ def _half_range(values):
     return float(np.subtract(*np.quantile(values, [0.95, 0.05]))) / 2.0
 
 
+def _failed(study, name, what):
+    """What became of a run that did not come to its end, in words; None: it did."""
+    status = study.status(name)
+    if status == "complete":
+        return None
+    return f"{what} {'took too long' if status == 'too-long' else 'failed'}: {textwrap.shorten(study.message(name), 100, placeholder=' ...')}"
+
+
 def bars_at(study, quantity, base, point=None):
     """Error bars of a quantity around the run `base`."""
     here = study.value(base, quantity)
-    bars = Bars(quantity, here, study.scale(base, quantity), {})
+    bars = Bars(quantity, here, study.scale(base, quantity))
+    failed = [_failed(study, base, "the run itself")]
     for name in study.there("refined", point=point):
-        case = study.cases[name]
-        moved = study.difference(name, base, quantity)
-        bars.undecided |= (study.value(name, quantity) is None) != (here is None)
-        if moved is None:
-            continue
-        bars.relative[case["kind"]] = max(moved, bars.relative.get(case["kind"]) or 0.0)
-        # What is no dearer than the run itself, but for the noise of clocks, counts as a hundredth of it.
-        bars.efforts[case["effort"]] = (case["kind"], moved, max(study.seconds(name) - study.seconds(base), 0.01 * study.seconds(base), 1e-6))
-    for names, values in ((study.there("member", point=point, finer=None), bars.members), (study.there("member", point=point, finer="finer"), bars.finer)):
-        found = [study.value(name, quantity) for name in names]
-        values.extend(each for each in found if each is not None)
-        bars.undecided |= 0 < len(values) < len(names)
-    if len(bars.members) > 1:
-        bars.relative["chaos"] = _half_range(bars.members) / bars.scale
+        case, moved = study.cases[name], study.difference(name, base, quantity)
+        failed.append(_failed(study, name, case["effort"]))
+        if study.summary(name) is not None:
+            bars.undecided |= (study.value(name, quantity) is None) != (here is None)
+        if moved is not None:
+            # What is no dearer than the run itself, but for the noise of clocks, counts as a hundredth of it.
+            seconds = max(study.seconds(name) - study.seconds(base), 0.01 * study.seconds(base), 1e-6)
+            bars.efforts[case["effort"]] = Effort(case["kind"], study.value(name, quantity), moved, seconds)
+    for names, values, what in ((study.there("member", point=point, finer=None), bars.members, "members"), (study.there("member", point=point, finer="finer"), bars.finer, "finer members")):
+        ended = [name for name in names if study.summary(name) is not None]
+        values.extend(found for name in ended if (found := study.value(name, quantity)) is not None)
+        bars.undecided |= 0 < len(values) < len(ended)
+        stopped = [name for name in names if name not in ended]
+        failed += [_failed(study, stopped[0], f"{len(stopped)} of {len(names)} {what}")] if stopped else []
+    bars.failures = [each for each in failed if each]
     return bars
 
 
 def verdict(bars, converged):
     """What the bars mean, in words; `converged`: of the quantity's scale, what does not matter."""
+    if bars.failures:
+        return bars.failures[0] + (f" (and {len(bars.failures) - 1} more)" if len(bars.failures) > 1 else "")
     if bars.undecided:
         return "undecided: some runs have it, some have not"
     if bars.value is None:
         return "absent"
     if bars.largest is None:
         return "not measured"
-    if max(bar for bar in bars.relative.values() if bar is not None) <= converged:
+    if bars.beyond_chance[bars.largest] <= converged:
         return "converged"
     return {"time": "needs a tolerance", "local": "needs a tolerance", "space": "needs cells", "chaos": "chaotic"}[bars.largest]
 
@@ -77,25 +145,23 @@ def verdict(bars, converged):
 def best_effort(bars):
     """What moves the largest bar most per second, in words."""
     kind = bars.largest
-    if kind is None or bars.relative[kind] == 0.0:
+    if kind is None or bars.beyond_chance[kind] == 0.0:
         return ""
     if kind == "chaos":
         return f"more members: of {len(bars.members)} the mean is known to ±{100.0 * bars.relative[kind] / len(bars.members) ** 0.5:.2g} %"
-    rates = {effort: moved / seconds for effort, (of, moved, seconds) in bars.efforts.items() if of == kind}
-    effort = max(rates, key=rates.__getitem__)
-    _, moved, seconds = bars.efforts[effort]
-    return f"{effort}: moves it by {100.0 * moved:.2g} % for {seconds:.2g} s more"
+    name, effort = max(((name, effort) for name, effort in bars.shown.items() if effort.kind == kind), key=lambda each: each[1].moved / each[1].seconds)
+    return f"{name}: moves it by {100.0 * effort.moved:.2g} % for {effort.seconds:.2g} s more"
 
 
 def best_of_all(every, converged):
-    """Which effort takes most off the largest bars of all quantities together, per second, in words; None: no refinement would."""
+    """Which effort takes most off the largest bars of all quantities together, per second, in words; None: no refinement would. What chance explains is no effort's doing."""
     efforts: dict[str, tuple[float, float]] = {}  # effort -> what it moves, of all scales together, and its seconds
     for bars in every:
-        if bars.largest in (None, "chaos") or bars.relative[bars.largest] <= converged:
+        if bars.failures or bars.undecided or bars.largest in (None, "chaos") or bars.beyond_chance[bars.largest] <= converged:
             continue
-        for effort, (kind, moved, seconds) in bars.efforts.items():
-            if kind == bars.largest:
-                efforts[effort] = efforts.get(effort, (0.0,))[0] + moved, seconds
+        for name, effort in bars.shown.items():
+            if effort.kind == bars.largest:
+                efforts[name] = efforts.get(name, (0.0,))[0] + effort.moved, effort.seconds
     if not efforts:
         return None
     best = max(efforts, key=lambda effort: efforts[effort][0] / efforts[effort][1])
@@ -111,4 +177,5 @@ def bar_rows(study):
         yield bars, {"quantity": quantity.name, "unit": quantity.unit, "value": bars.value, "scale": bars.scale,
                      **{kind: None if bars.relative.get(kind) is None else bars.relative[kind] * bars.scale for kind in kinds},
                      "verdict": verdict(bars, study.plan["converged"]), "largest": bars.largest, "effort": best_effort(bars),
+                     "chance": bars.noise[1] if bars.members and bars.efforts else None,
                      "mean": float(np.mean(bars.members)) if bars.members else None, "same_distribution": bars.probability}

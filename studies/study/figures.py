@@ -22,11 +22,11 @@ style = {
 plt.rcParams.update(style)
 
 
-def save(figure, folder, name, of_run=None):
-    """NAME.png, with its origin as text (the study's, and the run's where it shows one), and NAME.pdf."""
+def save(figure, folder, name, of_run=None, made=None):
+    """NAME.png, with its origin as text (the study's: `made` where it is told by a file; and the run's where it shows one), and NAME.pdf."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    origin = {**(of_run or {}), **stamp.of_study(*made_by())}
+    origin = {**(of_run or {}), **stamp.of_study(*(made or made_by()))}
     for suffix in ("png", "pdf"):
         figure.savefig(folder / f"{name}.{suffix}", dpi=dots_per_inch, metadata=origin if suffix == "png" else {"Creator": origin["Source"]})
     plt.close(figure)

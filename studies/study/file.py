@@ -17,6 +17,12 @@ _keys: dict[str, dict[str, type]] = {"": {"title": str, "scene": str, "set": dic
          "method": {"name": str, "title": str, "each": dict, "set": dict, "ladder": dict, "rung": list, "tight": dict, "only": dict, "quick": list}, "rung": {"name": str, "set": dict, "members": int},
          "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float}, "quantity": {"name": str, "from": str, "scale": float, "unit": str},
          "report": {"kinds": list, "sweep_bars": list, "trade_points": bool, "repeats": int, "converged": float}, "quick": {"set": dict, "vary": dict, "members": int}}
+_falling = ("courant", "step", "fixed_step", "max_step", "rtol", "atol", "cell")  # the less, the tighter
+# Columns of the tables that are no quantity: study.results, study.sweep.
+_columns = ("case", "role", "method", "setting", "effort", "kind", "point", "member", "status", "seconds", "steps", "rejected", "rhs_evaluations", "tolerance_idle", "residual",
+            "estimate", "message", "settings", "velocity field")
+_least: dict[tuple[str, str], int] = {("", "longest"): 0, ("quantity", "scale"): 0, ("ensemble", "members"): 2, ("ensemble", "amplitude"): 0, ("report", "repeats"): 1, ("report", "converged"): 0,
+          ("quick", "members"): 2, ("rung", "members"): 1}  # 0: more than that
 _named = {str: "a string", dict: "a table", list: "a list", int: "an integer", float: "a number", bool: "true or false"}
 
 
@@ -108,7 +114,16 @@ class _Reader:
             wanted: tuple[type, ...] = (int, float) if known[key] is float else (known[key],)
             if not isinstance(value, wanted) or (isinstance(value, bool) and known[key] is not bool):
                 raise self.fault(prefix + key, f"found {json.dumps(value, default=str)}, expected {_named[known[key]]}")
+            least = _least.get((section, key))
+            if least is not None and not (value > 0.0 if least == 0 else value >= least):
+                raise self.fault(prefix + key, f"found {value}, expected {'a positive number' if least == 0 else f'at least {least}'}")
         return table
+
+    def twice(self, name, values, what):
+        """Refuses a list of tables of which two say the same; at the second."""
+        for n, value in enumerate(values):
+            if value in values[:n]:
+                raise self.fault(f"{name}.{n}|{name}", f"found {what}: {value}")
 
     def tables(self, name, required):
         """(how `fault` calls its keys, table) of each of a list of tables."""
@@ -130,6 +145,9 @@ def _ladder(reader, prefix, item):
         raise reader.fault(prefix + "ladder", "expected lists of values, all of one length, from loose to tight")
     if "rung" in item and ladder:
         raise reader.fault(prefix + "ladder", f"[[method]] {item['name']!r} has a ladder and [[method.rung]], expected one of both")
+    for key, values in ladder.items():
+        if key.split(".")[-1] in _falling and any(not isinstance(value, (int, float)) or value >= before for before, value in zip(values, values[1:])):
+            raise reader.fault(prefix + key, f"found {values}, expected values that fall: a ladder leads from loose to tight")
     if "rung" in item:
         rows = [reader.check(row, "rung", prefix) for row in item["rung"]]
         return tuple(Rung(row.get("name", str(n)), {**common, **row.get("set", {})}, members=row.get("members", 1)) for n, row in enumerate(rows))
@@ -176,6 +194,10 @@ def _report(reader, vary, methods):
         for word in words:
             if word not in known:
                 raise reader.fault(f"report|{what}", f"found {word!r}, expected some of {', '.join(known)}")
+    if not chosen:
+        raise reader.fault("report|kinds", f"found an empty list, expected some of {', '.join(kinds)}")
+    if table.get("trade_points") and not vary:
+        raise reader.fault("report|trade_points", "found true, but there is no table [vary] of what to vary")
     if "sweep" in chosen and not vary:
         raise reader.fault("report|kinds", "found 'sweep', but there is no table [vary] of what to vary")
     if "methods" in chosen and not methods:
@@ -190,7 +212,67 @@ def _vary(reader, quick, quick_table):
             if not isinstance(values, list) or not values:
                 raise reader.fault(f"{name}|{key}", f"found {values!r}, expected a list of values")
     vary = reader.table.get("vary", {})
+    for key in quick_table.get("vary", {}):
+        if key not in vary:
+            raise reader.fault(f"quick|{key}", f"found a key that does not vary, expected one of {', '.join(vary) or 'none: there is no [vary]'}")
     return {key: quick_table.get("vary", {}).get(key, values[:1] + values[1:][-1:]) for key, values in vary.items()} if quick else vary
+
+
+def _only(reader, quick_table):
+    """Points to which a method keeps are some of those that vary."""
+    vary = reader.table.get("vary", {})
+    for prefix, item in reader.tables("method", ("name",)):
+        for key, values in item.get("only", {}).items():
+            known = [*vary.get(key, []), *quick_table.get("vary", {}).get(key, [])]
+            if key not in vary:
+                raise reader.fault(prefix + key, f"found a key that does not vary, expected one of {', '.join(vary) or 'none: there is no [vary]'}")
+            if not isinstance(values, list) or not values or any(value not in known for value in values):
+                raise reader.fault(prefix + key, f"found {values!r}, expected a list of some of {known}")
+
+
+def _settings(table):
+    """(words of `fault` before the key, settings) of all in the file that changes the scene."""
+    yield from (("set|", table.get("set", {})), ("vary|", table.get("vary", {})), ("quick|", table.get("quick", {}).get("set", {})), ("quick|", table.get("quick", {}).get("vary", {})))
+    for name in ("method", "reference"):
+        for n, item in enumerate(table.get(name, [])):
+            for each in (item, *item.get("rung", [])):
+                yield from ((f"{name}.{n}|", each.get(key, {})) for key in ("set", "ladder", "each", "tight"))
+
+
+def _parameters(reader, scene):
+    """The program takes new parameters; in a study one that neither the scene defines nor a formula of the study uses is a slip."""
+    try:
+        defined = tomllib.loads(scene.read_text(encoding="utf-8")).get("parameters", {})
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError):
+        return  # the program says so, with the place
+    formulas = [text for _, settings in _settings(reader.table) for text in re.findall(r'"=([^"]*)"', json.dumps(settings, default=str))]
+    known = {*defined, *re.findall(r"[A-Za-z_]\w*", " ".join(formulas))}
+    for where, settings in _settings(reader.table):
+        for key in settings:
+            name = key.removeprefix("parameters.")
+            if name != key and name not in known:
+                near = difflib.get_close_matches(name, defined, 1)
+                raise reader.fault(where + key, f"the scene has no such parameter, expected one of {', '.join(defined) or 'none'}" + (f"; did you mean '{near[0]}'?" if near else ""))
+
+
+def _quantities(reader, vary):
+    tables = [item for _, item in reader.tables("quantity", ("name", "from"))]
+    reader.twice("quantity", [item["name"] for item in tables], "two quantities of one name")
+    for n, item in enumerate(tables):
+        if item["name"] in (*_columns, *vary):
+            raise reader.fault(f"quantity.{n}|name", f"found {item['name']!r}, which is a column of the tables, expected another name")
+    return [Quantity(item["name"], item["from"], item.get("scale"), item.get("unit", "")) for item in tables] or None
+
+
+def _references(reader):
+    """Two, or none: those that the study proposes."""
+    tables = [item for _, item in reader.tables("reference", ("set",))]
+    references = [(item.get("name", f"reference {n + 1}"), item["set"]) for n, item in enumerate(tables)]
+    if len(references) not in (0, 2):
+        raise reader.fault("reference", f"found {len(references)} of [[reference]], expected two, of different methods")
+    reader.twice("reference", [name for name, _ in references], "two references of one name")
+    reader.twice("reference", [settings for _, settings in references], "the same settings twice, expected two of different methods")
+    return references
 
 
 def read(path, quick=False):
@@ -208,22 +290,29 @@ def read(path, quick=False):
     report, chosen = _report(reader, vary, methods)
     ensemble = reader.check(table.get("ensemble", {}), "ensemble", "ensemble|")
     members = ensemble.get("members", 10)
-    if members < 2:
-        raise reader.fault("ensemble|members", f"found {members}, expected at least 2")
+    _only(reader, quick_table)
+    _parameters(reader, scene)
     fewest = quick_table.get("members", 4)
     if quick:
         methods = [replace(method, rungs=tuple(replace(rung, members=min(rung.members, fewest)) for rung in method.rungs)) for method in methods]
-    references = [(item.get("name", f"reference {n + 1}"), item["set"]) for n, (_, item) in enumerate(reader.tables("reference", ("set",)))]
-    if len(references) not in (0, 2):
-        raise reader.fault("reference", f"found {len(references)} of [[reference]], expected two, of different methods")
-    quantities = [Quantity(item["name"], item["from"], item.get("scale"), item.get("unit", "")) for _, item in reader.tables("quantity", ("name", "from"))] or None
+    references, quantities = _references(reader), _quantities(reader, vary)
     study = StudyFile(path, table.get("title", ""), scene, {**table.get("set", {}), **(quick_table.get("set", {}) if quick else {})}, vary,
                       methods, references, min(members, fewest) if quick else members, ensemble.get("amplitude", 1e-12), quantities, chosen,
                       report.get("sweep_bars", []), report.get("trade_points", False), 1 if quick else report.get("repeats", 1), report.get("converged", 0.01),
                       float(table.get("longest", 3600.0)))
-    study.resolved = resolved(study.scene, study.settings)
+    try:
+        study.resolved = resolved(study.scene, study.settings)
+    except StudyFileError as error:
+        raise placed(reader, error) from error
     study.title = study.title or f"Study of {study.resolved.get('title') or scene.stem}"
     return study
+
+
+def placed(reader, error):
+    """The program's refusal of a setting, with the place in the study file before it; of what the scene itself says, as it is."""
+    key = next((key for key in re.findall(r"--set ([\w.]+)=", str(error))), None)
+    where = next((where for where, settings in _settings(reader.table) if key in settings), None)
+    return error if where is None else StudyFileError(f"{reader.fault(where + key, 'the program refuses it:')} {error}")
 
 
 def resolved(scene, settings):

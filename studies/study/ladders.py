@@ -27,13 +27,16 @@ def trade_rows(study):
     against the tight run of its own method where there is one."""
     measured: list[tuple] = [(quantity.name, functools.partial(study.difference, quantity=quantity), functools.partial(study.value, quantity=quantity)) for quantity in study.quantities]
     measured.append((field_of_velocity, study.field_difference, lambda name: None))
+    units = {quantity.name: quantity.unit for quantity in study.quantities}
     for name in study.named_any("ladder"):
         case, cost = study.cases[name], work(study, name)
         first, second = study.named("reference", point=case.get("point"))
         tight = study.named("tight", point=case.get("point"), method=case["method"])
         for quantity, difference, own in measured:
+            # A rung that is the first reference is measured against the second: that it agrees with itself says nothing.
+            against = second if case["run"] == study.cases[first]["run"] else first
             yield {"point": case.get("point"), "method": case["method"], "setting": case["setting"], "rung": case["rung"], "tightness": case.get("tightness"), **cost,
-                   "quantity": quantity, "value": own(name), "reference": own(first), "error": difference(name, first), "references_apart": difference(second, first),
+                   "quantity": quantity, "unit": units.get(quantity, ""), "value": own(name), "reference": own(against), "error": difference(name, against), "references_apart": difference(second, first),
                    "own_error": difference(name, tight[0]) if tight else None}
 
 

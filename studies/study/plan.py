@@ -79,9 +79,9 @@ def make(path, quick):
         _methods(study, add)
     if "error-bars" in study.kinds:
         _bars(study, bars, add)
-        # The same members under a finer step or tolerance: do two settings differ by more than chance?
+        # Other members, under a finer step or tolerance: do two settings differ by more than chance?
         for member in range(1, study.members + 1):
-            add("member", {**finer_in_time(study.resolved, 1), **perturbed(study, member)}, member=member, finer="finer")
+            add("member", {**finer_in_time(study.resolved, 1), **perturbed(study, study.members + member)}, member=member, finer="finer")
     if "sweep" in study.kinds:
         for n, point in _points(study):
             add("point", point, point=n)
@@ -146,8 +146,8 @@ def load_all(out):
     return {plan["key"]: plan for path in sorted(pathlib.Path(out).glob("plan*.json")) for plan in [json.loads(path.read_text())]}
 
 
-# Only the last state, and of its fields the velocity, unless the study's own settings say otherwise.
-lean = {"output.every": 1.0, "output.fields": ["velocity"]}
+# Of the fields only the velocity, unless the study's own settings say otherwise. Times of output stay: steps land on them, so that they are part of the result.
+lean = {"output.fields": ["velocity"]}
 
 
 def case(plan, name):

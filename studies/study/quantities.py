@@ -55,11 +55,24 @@ def _duration(table, bodies):
     return float(time[moving[-1] + 1] - time[moving[0]]) if moving.size else None
 
 
+# What may be null and has more below, once it has happened; None: whatever the reader says.
+_event = ("time", "r", "z", "body")
+_below = {"first_damage": _event, "first_localisation": _event, "first_separation": _event, "error_estimate": ("total", "position", "velocity", "strain"), "failure": None, "contacts": None}
+
+
 def _walk(tree, path):
+    above = ""
     for part in re.findall(r'"([^"]*)"|([^."]+)', path):
         key = part[0] or part[1]
         if tree is None:  # of what has not happened the summary has no more
-            return None
+            known = _below.get(above, ())
+            if known is not None and key not in known:
+                raise StudyError(f"{path!r}: found {key!r}, expected one of {', '.join(known) or 'nothing below'}")
+            if known is None:
+                return None
+            above = key
+            continue
+        above = key
         try:
             tree = tree[int(key)] if isinstance(tree, list) else tree[key]
         except (KeyError, IndexError, ValueError, TypeError):
@@ -85,6 +98,7 @@ def value(source, summary):
     except SyntaxError:
         raise StudyError(f"{source!r} is no path in summary.json and no formula of such; names with blanks are quoted: bodies.\"a name\".kinetic") from None
     if any(each is None for each in found.values()):
+        _evaluate_anything(tree, found, source)
         return None
     try:
         result = _evaluate(tree, found, source)
@@ -95,6 +109,14 @@ def value(source, summary):
     if not isinstance(result, (int, float)):
         raise StudyError(f"{source!r} is no number but {type(result).__name__}")
     return float(result)
+
+
+def _evaluate_anything(tree, found, source):
+    """Raises StudyError for what is no formula, whatever its numbers."""
+    try:
+        _evaluate(tree, {name: 1.0 for name in found}, source)
+    except (ArithmeticError, ValueError, TypeError):
+        pass
 
 
 def _evaluate(node, found, source):
@@ -143,10 +165,10 @@ small = 0.01  # of a run's energy: what is less is measured by so much
 
 def scale(quantity, scene, summary):
     """What a quantity's errors are measured by: its own `scale`; of velocities the scene's largest speed, of times its duration; of others their own size in the run of
-    this `summary`, but of energies at least a hundredth of what it began with or was given (1 where that is nothing)."""
+    this `summary`, but of energies at least a hundredth of what it began with or was given. None: it is zero or absent there, and nothing else tells."""
     time, energy = scene["time"], summary["energy"]
     known = {"m/s": speed_of(scene), "s": time["end"] - time["start"]}
     size = abs(value(quantity.source, summary) or 0.0)
     if quantity.unit == "J":
         size = max(size, small * (energy["initial"] or abs(energy["external"])))
-    return quantity.scale or known.get(quantity.unit) or size or 1.0
+    return quantity.scale or known.get(quantity.unit) or size or None

@@ -74,7 +74,16 @@ class Study:
     def scale(self, name, quantity):
         """What errors of the run `name` are measured by."""
         summary = self.summary(name)
-        return 1.0 if summary is None else scale(quantity, self.scene, summary)
+        own = None if summary is None else scale(quantity, self.scene_of(name), summary)
+        return own or self._most(quantity)
+
+    def _most(self, quantity):
+        """The largest size of a quantity in all runs that are there; 1 where it is zero in all."""
+        return max((abs(found) for name in self.cases if (found := self.value(name, quantity)) is not None), default=0.0) or 1.0
+
+    def scene_of(self, name):
+        """The scene of a run as the program understood it: what varies may change its speeds and times."""
+        return self.outcome(name).results.scene
 
     def value(self, name, quantity):
         summary = self.summary(name)
@@ -95,7 +104,7 @@ class Study:
         if self.summary(name) is None or self.summary(other) is None:
             return None
         one, two = (self.outcome(each).last("velocity") for each in (name, other))
-        reach = speed_of(self.scene) or float(np.sqrt(np.mean(two**2))) or 1.0
+        reach = speed_of(self.scene_of(other)) or float(np.sqrt(np.mean(two**2))) or 1.0
         with np.errstate(over="ignore", invalid="ignore"):
             return float(np.sqrt(np.mean((one - two) ** 2)) / reach) if one.shape == two.shape else None
 
@@ -104,7 +113,7 @@ class Study:
         one, two = (self.outcome(each).results for each in (name, other))
         both = list(zip(one.frames, two.frames))
         apart = [np.sqrt(np.mean((a["velocity"] - b["velocity"]) ** 2)) for a, b in both]
-        return np.array([a.time for a, _ in both]), np.array(apart) / (speed_of(self.scene) or 1.0)
+        return np.array([a.time for a, _ in both]), np.array(apart) / (speed_of(self.scene_of(other)) or 1.0)
 
 
 def work(study, name):

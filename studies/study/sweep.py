@@ -25,7 +25,7 @@ def sweep_rows(study):
             row[quantity.name] = study.value(name, quantity)
             if study.plan["sweep_bars"]:
                 bars = bars_at(study, quantity, name, number)
-                known = [bar for bar in bars.relative.values() if bar is not None]
+                known = list(bars.relative.values())
                 row[f"± {quantity.name}"] = float(np.hypot.reduce(known)) * bars.scale if known else None
         yield row
 
@@ -56,4 +56,4 @@ def method_rows(study):
         status = sorted({study.status(name) for name in names})
         for quantity in study.quantities:
             yield {**_point(study, point), "method": method, "setting": study.cases[names[0]]["setting"], "members": len(names), "status": ", ".join(status),
-                   "quantity": quantity.name, **distribution([study.value(name, quantity) for name in names])}
+                   "quantity": quantity.name, "unit": quantity.unit, **distribution([study.value(name, quantity) for name in names])}

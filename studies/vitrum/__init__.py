@@ -14,12 +14,12 @@ from vitrum.errors import ComputationError, Error, FileError, InputError
 from vitrum.results import Frame, Run, load
 from vitrum.running import Point, point, run
 
-__all__ = ["ComputationError", "Error", "FileError", "Frame", "InputError", "Point", "Run", "load", "plot", "point", "run"]
+__all__ = ["ComputationError", "Error", "FileError", "Frame", "InputError", "Point", "Run", "load", "plot", "point", "report", "run"]
 
 
 def __getattr__(name: str) -> Any:
-    """`vitrum.plot` is imported when it is first asked for: it wants matplotlib."""
-    if name == "plot":
+    """`vitrum.plot` and `vitrum.report` are imported when they are first asked for: they want matplotlib."""
+    if name in ("plot", "report"):
         import importlib
-        return importlib.import_module("vitrum.plot")
+        return importlib.import_module(f"vitrum.{name}")
     raise AttributeError(f"module 'vitrum' has no attribute {name!r}")

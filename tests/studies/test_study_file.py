@@ -8,6 +8,7 @@ import unittest
 import numpy as np
 
 from support import Folder, blocks, source
+from own import page
 from study import bars, file, ladders, plan, progress, quantities, sweep
 from study.file import Quantity
 from study.outcome import StudyError
@@ -15,7 +16,7 @@ from study.outcome import StudyError
 
 class StudyFile(Folder):
     def test_what_is_wrong_is_said_with_its_place(self):
-        scene = f'scene = "{blocks}"\n'
+        scene, laminate = f'scene = "{blocks}"\n', f'scene = "{source}/examples/laminate.toml"\n'
         for text, expected in (
                 ("", "key 'scene' is missing"), ('scene = "no.toml"', "study.toml:1: key 'scene': found 'no.toml'"), ("scene = = 1", "line 1, column 9"),
                 (scene + "[ensembles]\nmembers = 3", "study.toml:2: key 'ensembles': found an unknown key.*did you mean 'ensemble'"),
@@ -30,7 +31,24 @@ class StudyFile(Folder):
                 (scene + '[report]\nkinds = ["methods"]', "found 'methods', but there is no"), (scene + '[quick]\nmembers = 2.5', "expected an integer"),
                 (scene + '[[method]]\nset = {}', "has no key 'name'"), (scene + '[[method]]\nname = "a"\n[[method]]\nname = "a"', "two methods of one name"),
                 (scene + '[[reference]]\nset = {}', "found 1 of \\[\\[reference\\]\\], expected two"),
-                (scene + 'set = {"space.celll" = 1}', "space.celll.*did you mean 'cell'")):
+                (scene + 'set = {"space.celll" = 1}', "study.toml:2: key 'set.space.celll'.*did you mean 'cell'"),
+                (laminate + '[vary]\n"parameters.vv" = [1, 2]', "study.toml:3: key 'vary.parameters.vv': the scene has no such parameter, expected one of .*did you mean 'v'"),
+                (laminate + '[[method]]\nname = "a"\nladder = {"parameters.w" = [2, 1]}', "study.toml:4: key 'method.0.parameters.w': the scene has no such parameter"),
+                (scene + '[[method]]\nname = "a"\nladder = {"integrator.courant" = [0.1, 0.4]}', "study.toml:4: key 'method.0.integrator.courant': found .*expected values that fall"),
+                (scene + 2 * '[[reference]]\nset = {"integrator.courant" = 0.1}\n', "study.toml:4: key 'reference.1.reference': found the same settings twice, expected two of different methods"),
+                (scene + '[[reference]]\nname = "R"\nset = {}\n[[reference]]\nname = "R"\nset = {"integrator.courant" = 0.1}', "found two references of one name: R"),
+                (scene + '[[quantity]]\nname = "a"\nfrom = "time"\nscale = -1.0', "study.toml:5: key 'quantity.0.scale': found -1.0, expected a positive number"),
+                (scene + 2 * '[[quantity]]\nname = "a"\nfrom = "time"\n', "study.toml:5: key 'quantity.1.quantity': found two quantities of one name: a"),
+                (scene + '[[quantity]]\nname = "steps"\nfrom = "integrator.steps"', "study.toml:3: key 'quantity.0.name': found 'steps', which is a column of the tables"),
+                ("longest = 0\n" + scene, "study.toml:1: key 'longest': found 0, expected a positive number"), (scene + "[ensemble]\namplitude = -1.0", "expected a positive number"),
+                (scene + "[report]\nrepeats = 0", "study.toml:3: key 'report.repeats': found 0, expected at least 1"), (scene + "[report]\nconverged = -0.1", "expected a positive number"),
+                (scene + "[quick]\nmembers = 1", "study.toml:3: key 'quick.members': found 1, expected at least 2"),
+                (scene + '[[method]]\nname = "a"\nrung = [{members = 0}]', "found 0, expected at least 1"),
+                (scene + "[report]\nkinds = []", "study.toml:3: key 'report.kinds': found an empty list"),
+                (scene + "[report]\ntrade_points = true", "study.toml:3: key 'report.trade_points': found true, but there is no table"),
+                (scene + '[vary]\n"space.cell" = [1e-3]\n[quick]\nvary = {"space.cel" = [1]}', "study.toml:5: key 'quick.space.cel': found a key that does not vary, expected one of space.cell"),
+                (scene + '[[method]]\nname = "a"\nonly = {"space.cell" = [1e-3]}', "study.toml:4: key 'method.0.space.cell': found a key that does not vary, expected one of none"),
+                (scene + '[vary]\n"space.cell" = [1e-3]\n[[method]]\nname = "a"\nonly = {"space.cell" = [2e-3]}', "study.toml:6: key 'method.0.space.cell': .*expected a list of some of")):
             with self.subTest(expected=expected):
                 with self.assertRaisesRegex(StudyError, "(?s)" + expected):
                     file.read(self.write(text))
@@ -39,6 +57,7 @@ class StudyFile(Folder):
         scene = f'scene = "{blocks}"\n'
         for text, expected, status in ((scene + '[vary]\n"integrator.courant" = [0.4, -1.0]\n[report]\nkinds = ["sweep"]', "case point-1: exit status 2: error: --set .*integrator.courant", 1),
                                (scene + '[[quantity]]\nname = "speed"\nfrom = "bodies.stricker.kinetic"\n[report]\nkinds = ["error-bars"]', "found 'stricker', expected one of target, striker", 1),
+                               (scene + '[[quantity]]\nname = "q"\nfrom = "failure.first_separation.tmie"\n[report]\nkinds = ["error-bars"]', "found 'tmie', expected one of time", 1),
                                (scene + 'set = {"time.end" = -1.0}', "^error: .*time.end", 2), (scene + "nonsense = 1", "^error: .*study.toml:2: key 'nonsense'", 2)):
             with self.subTest(expected=expected):
                 self.assertRegex(self.command(self.write(text), status=status).stderr, expected)
@@ -130,7 +149,8 @@ class Quantities(unittest.TestCase):
             self.assertEqual(quantities.value(source_text, self.summary), expected, source_text)
 
     def test_nothing_else_is_obeyed(self):
-        for source_text in ("bodies.ball", "bodies.disk.kinetic", "__import__('os').system('true')", "energy.initial if 1 else 2", "kinetic", "energy.initial +", "contacts.1.duration"):
+        for source_text in ("bodies.ball", "bodies.disk.kinetic", "__import__('os').system('true')", "energy.initial if 1 else 2", "kinetic", "energy.initial +", "contacts.1.duration",
+                            "bodies.ball.first_damage.tmie", "sin(bodies.ball.first_damage.time)", "bodies.ball.first_damage.time.more"):
             with self.assertRaises(StudyError, msg=source_text):
                 quantities.value(source_text, self.summary)
 
@@ -149,29 +169,56 @@ class Meaning(unittest.TestCase):
         self.assertEqual(advice[0], "a, 0")
         self.assertTrue(all(each.startswith("undecidable") for each in advice[1:]))
 
-    def measured(self, **relative):
-        efforts = {"half the cell": ("space", 0.03, 6.0), "four times the particles": ("space", 0.02, 1.0), "half the step": ("time", 0.5, 1.0)}
-        return bars.Bars(Quantity("v", "x"), 1.0, 1.0, relative, efforts, [0.9, 1.0, 1.1, 1.0])
+    def measured(self, chaos=None, **moved):
+        """Bars around 1, each of one effort of its kind; members that spread so that half of 5 to 95 % of them is `chaos`."""
+        efforts = {kind: bars.Effort(kind, 1.0 + each, each, 1.0) for kind, each in moved.items()}
+        return bars.Bars(Quantity("v", "x"), 1.0, 1.0, efforts, [] if chaos is None else list(1.0 + chaos / 0.9 * np.linspace(-1.0, 1.0, 21)))
 
     def test_verdicts(self):
         for relative, expected in (({"time": 1e-3, "space": 9e-3}, "converged"), ({"time": 0.03, "space": 0.02}, "needs a tolerance"), ({"local": 0.03}, "needs a tolerance"),
                                    ({"time": 0.02, "space": 0.03}, "needs cells"), ({"space": 0.02, "chaos": 0.03}, "chaotic"),
-                                   ({"space": 0.05, "chaos": 0.03}, "chaotic"), ({"space": 0.07, "chaos": 0.03}, "needs cells"), ({"time": 0.02, "chaos": 0.0099}, "needs a tolerance"), ({}, "not measured")):
+                                   ({"space": 0.04, "chaos": 0.03}, "chaotic"), ({"space": 0.07, "chaos": 0.03}, "needs cells"), ({"time": 0.02, "chaos": 0.0081}, "needs a tolerance"),
+                                   ({"time": 0.011, "chaos": 0.0081}, "converged"), ({}, "not measured")):
             self.assertEqual(bars.verdict(self.measured(**relative), 0.01), expected)
         unsure = self.measured(time=0.0)
         unsure.undecided = True
         self.assertIn("undecided", bars.verdict(unsure, 0.01))
+        unsure.failures = ["half the cell failed: error: max_growth", "3 of 10 members failed: error: max_growth"]
+        self.assertEqual(bars.verdict(unsure, 0.01), "half the cell failed: error: max_growth (and 1 more)")
+
+    def test_what_is_all_chance_is_chaotic_and_what_is_more_is_not(self):
+        """Every run draws from one normal distribution; then refinements of one kind are five standard deviations off."""
+        random = np.random.default_rng(3)
+        names = {"half the step": "time", "a quarter": "time", "local": "local", "half the cell": "space", "particles": "space", "functions": "space"}
+
+        def drawn(members, shifted=()):
+            base, each = random.normal(), {name: random.normal() + (5.0 if name in shifted else 0.0) for name in names}
+            return bars.Bars(Quantity("v", "x"), base, 1.0, {name: bars.Effort(kind, each[name], abs(each[name] - base), 1.0) for name, kind in names.items()},
+                             list(random.normal(size=members)), list(random.normal(size=members)))
+
+        count = 400
+        for members, shifted in ((4, ("half the cell", "particles", "functions")), (10, ("half the cell",)), (20, ("half the cell",))):
+            chance, real = [drawn(members) for _ in range(count)], [drawn(members, shifted) for _ in range(count)]
+            self.assertGreater(sum(bars.verdict(each, 0.01) == "chaotic" for each in chance), 0.9 * count, members)
+            self.assertGreater(sum(bars.best_of_all([each], 0.01) is None for each in chance), 0.9 * count, members)
+            self.assertGreater(sum(bars.verdict(each, 0.01) == "needs cells" for each in real), 0.9 * count, members)
+            self.assertGreater(sum((bars.best_of_all([each], 0.01) or "").lower().startswith(shifted) for each in real), 0.9 * count, members)
 
     def test_the_best_effort_is_of_the_largest_bar_and_by_the_second(self):
-        self.assertIn("four times the particles: moves it by 2 % for 1 s more", bars.best_effort(self.measured(space=0.03, time=0.01)))
-        self.assertIn("of 4 the mean is known to ±10 %", bars.best_effort(self.measured(chaos=0.2)))
+        found = bars.Bars(Quantity("v", "x"), 1.0, 1.0, {name: bars.Effort(kind, 1.0 + moved, moved, seconds) for name, kind, moved, seconds in (
+            ("half the cell", "space", 0.03, 6.0), ("four times the particles", "space", 0.02, 1.0), ("half the step", "time", 0.01, 0.01))})
+        self.assertEqual("four times the particles: moves it by 2 % for 1 s more", bars.best_effort(found))
+        self.assertIn("of 21 the mean is known to ±4.4 %", bars.best_effort(self.measured(chaos=0.2)))
 
     def test_two_settings_differ_or_do_not(self):
         random = np.random.default_rng(3)
         one, same, other = random.normal(0, 1, 40), random.normal(0, 1, 40), random.normal(2, 1, 40)
         for finer, differ in ((same, False), (other, True)):
-            found = bars.Bars(Quantity("v", "x"), 0.0, 1.0, {}, {}, list(one), list(finer))
+            found = bars.Bars(Quantity("v", "x"), 0.0, 1.0, {}, list(one), list(finer))
             self.assertEqual(found.probability < 0.05, differ)
+        few = bars.Bars(Quantity("v", "x"), 0.0, 1.0, {}, [0.0, 1.0, 2.0], [7.0, 8.0, 9.0])
+        self.assertAlmostEqual(few.least_probability, 0.1)  # 2 / binomial(6, 3)
+        self.assertIn("cannot be told apart by 3 and 3 members", page._compared(few, {"quantity": "v", "unit": "", "mean": 1.0, "same_distribution": few.probability}))
 
     def test_progress(self):
         for module in (ladders, progress, sweep):
