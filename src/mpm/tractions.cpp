@@ -91,31 +91,55 @@ double Tractions::power(std::span<const ParticleMotion> motion) const {
   return sum;
 }
 
+/// A couple moves nodes of next to no mass far, and no particle with them: the work is that at
+/// v + m^-1 M (w - v) / 2, M the consistent mass, and not at (v + w) / 2.
 void Tractions::book_work(System& system, double duration) {
   Grid& grid = system.grid;
   const std::size_t nodes = grid.blocks().size() * block_nodes;
+  const std::array velocity{grid.field(Field::velocity_0), grid.field(Field::velocity_1)};
+  const std::array<const double*, 2> after{grid.field(Field::new_velocity_0),
+                                           grid.field(Field::new_velocity_1)};
   VectorColumns before;
   for (std::size_t c = 0; c < 2; ++c) {
-    double* v = grid.field(c == 0 ? Field::velocity_0 : Field::velocity_1);
-    const double* w = grid.field(c == 0 ? Field::new_velocity_0 : Field::new_velocity_1);
-    before[c].assign(v, v + nodes);
-    for (std::size_t n = 0; n < nodes; ++n) v[n] = 0.5 * (v[n] + w[n]);
+    before[c].assign(velocity[c], velocity[c] + nodes);
+    for (std::size_t n = 0; n < nodes; ++n) velocity[c][n] = after[c][n] - before[c][n];
   }
-  std::vector<ParticleGradient> targets(motions_.size());
+  interpolate(system);
+  const auto swap_velocities = [&] {
+    for (std::size_t n = 0; n < motions_.size(); ++n)
+      for (std::size_t c = 0; c < 2; ++c) std::swap(system.bodies[n].particles.velocity[c], motions_[n][c]);
+  };
+  swap_velocities();
+  scatter(system, Scatter::momentum);
+  swap_velocities();
+  const double* mass = grid.field(Field::mass);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const double* momentum = grid.field(c == 0 ? Field::momentum_0 : Field::momentum_1);
+    for (std::size_t n = 0; n < nodes; ++n) {
+      const bool moves = mass[n] > 0.0 && grid.constraint(c, n) == Constraint::free;
+      velocity[c][n] = before[c][n] + 0.5 * (moves ? momentum[n] / mass[n] : after[c][n] - before[c][n]);
+    }
+  }
+  const std::vector<ParticleGradient> at = interpolate(system);
   std::vector<ParticleMotion> motion(motions_.size());
+  for (std::size_t n = 0; n < motions_.size(); ++n) {
+    set_spins(system.bodies[n].particles, at[n], motions_[n][6]);
+    motion[n] = {{motions_[n][0].data(), motions_[n][1].data()}, motions_[n][6].data()};
+  }
+  system.record.external_work += duration * power(motion);
+  for (std::size_t c = 0; c < 2; ++c) std::copy(before[c].begin(), before[c].end(), velocity[c]);
+}
+
+/// The nodes' velocities and their gradients at the particles, in `motions_`.
+std::vector<ParticleGradient> Tractions::interpolate(System& system) {
+  std::vector<ParticleGradient> targets(motions_.size());
   for (std::size_t n = 0; n < motions_.size(); ++n) {
     for (std::vector<double>& column : motions_[n]) column.resize(system.bodies[n].particles.size);
     for (std::size_t c = 0; c < 2; ++c) targets[n].value[c] = motions_[n][c].data();
     for (std::size_t k = 0; k < 5; ++k) targets[n].gradient[k] = motions_[n][2 + k].data();
   }
   gather_gradient(system, targets);
-  for (std::size_t n = 0; n < motions_.size(); ++n) {
-    set_spins(system.bodies[n].particles, targets[n], motions_[n][6]);
-    motion[n] = {{motions_[n][0].data(), motions_[n][1].data()}, motions_[n][6].data()};
-  }
-  system.record.external_work += duration * power(motion);
-  for (std::size_t c = 0; c < 2; ++c)
-    std::copy(before[c].begin(), before[c].end(), grid.field(c == 0 ? Field::velocity_0 : Field::velocity_1));
+  return targets;
 }
 
 void set_spins(const Particles& p, const ParticleGradient& of, std::vector<double>& spin) {

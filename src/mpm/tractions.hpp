@@ -49,7 +49,8 @@ class Tractions {
   void load(System& system, double time, std::span<const Configuration> bodies);
   /// Power of the forces loaded last at the particles' motion, W (per radian or per metre).
   double power(std::span<const ParticleMotion> motion) const;
-  /// Adds the work of an explicit step to the record: at the mean of nodal velocities before and after.
+  /// Adds the work of an explicit step to the record: at the velocities in its middle, those before and half
+  /// of what the particles' changes project to.
   void book_work(System& system, double duration);
   /// The derivative of a particle's force to its turn, N, by `key_of` body and place; empty where nothing
   /// follows.
@@ -60,6 +61,7 @@ class Tractions {
 
  private:
   void find_carriers(const System& system);
+  std::vector<ParticleGradient> interpolate(System& system);
 
   std::vector<Traction> tractions_;
   std::vector<std::vector<std::uint32_t>> place_;            // by traction and point: in the columns

@@ -29,6 +29,15 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
+/// Whether a cell is no number, but was meant to be one.
+bool resembles_number(std::string_view text) {
+  text = trimmed(text);
+  const auto begin = text.find_first_not_of("\"'+-. ");
+  if (begin == std::string_view::npos) return false;
+  text.remove_prefix(begin);
+  return (text[0] >= '0' && text[0] <= '9') || text == "nan" || text == "inf";
+}
+
 }  // namespace
 
 std::variant<std::vector<std::array<double, 2>>, std::string> read_csv_rows(
@@ -40,6 +49,8 @@ std::variant<std::vector<std::array<double, 2>>, std::string> read_csv_rows(
   } catch (const std::runtime_error& error) {
     return std::string(error.what());
   }
+  if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
+    text.erase(0, byte_order_mark.size());
   std::vector<std::array<double, 2>> rows;
   bool first = true;
   int number = 0;
@@ -50,11 +61,13 @@ std::variant<std::vector<std::array<double, 2>>, std::string> read_csv_rows(
     ++number;
     if (line.empty() || line.starts_with('#')) continue;
     const std::size_t comma = line.find_first_of(",;");
-    const auto a = number_of(line.substr(0, comma)),
-               b = comma == std::string_view::npos ? std::nullopt : number_of(line.substr(comma + 1));
+    const std::string_view left = line.substr(0, comma), right = comma == std::string_view::npos
+                                                                     ? std::string_view{}
+                                                                     : line.substr(comma + 1);
+    const auto a = number_of(left), b = number_of(right);
     if (a && b)
       rows.push_back({*a, *b});
-    else if (!first || a)
+    else if (!first || resembles_number(left) || resembles_number(right))
       return fmt::format("{}:{}: found {}, expected two numbers and a comma between", file, number,
                          toml_quoted(line.substr(0, 60)));
     first = false;

@@ -33,7 +33,7 @@ Wherever a number stands, a text that begins with `=` is a formula: `max = ["=R"
 Formulas are evaluated when the scene is read. The resolved scene has their values, and the formulas behind them as comments. A result within rounding of a decimal of twelve digits is that decimal: `=20*us` is 2e-5.
 
 **Functions of time**: where a row admits them formulas may use `t`. A table may stand in place of the number: `{table = [[0.0, 0.0], [1e-5, -20.0]]}`, seconds and values by rising time, linear between and constant outside. Or `{csv = "FILE"}`, the same as two columns
-of a file, relative to the scene's folder (`#` begins a comment, a first line without numbers is a heading).
+of a file, relative to the scene's folder (`#` begins a comment, a first line in which nothing resembles a number is a heading).
 
 **Functions of place**: there formulas may use `r` and `z`, or `x` and `y` in plane strain. What they are for: [loads](../howto/loads.md).
 

@@ -45,6 +45,27 @@ TEST_CASE("A formula of t is a function of time", "[scene][loads]") {
   CHECK(constant.functions.empty());
 }
 
+TEST_CASE("The first row of a file is a heading only if nothing in it was meant as a number",
+          "[scene][loads]") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "vitrum_heading_test";
+  std::filesystem::create_directories(folder);
+  const auto first_value = [&](const std::string& first_row) {
+    std::ofstream(folder / "load.csv", std::ios::binary) << first_row << "\n1e-5,-4\n2e-5,2\n";
+    return load_function(parse_scene(scene_with("[0, {csv = \"load.csv\"}]"), (folder / "s.toml").string()),
+                         "boundary.0.velocity.1")
+        ->at(0.0);
+  };
+  CHECK(first_value("\xEF\xBB\xBF"
+                    "0,5") == 5.0);  // as spreadsheets write it
+  CHECK(first_value("\xEF\xBB\xBFtime,v") == -4.0);
+  CHECK(first_value("t (us), v") == -4.0);
+  for (const char* row : {"0\t5", "1d-5,1", "\"0\",\"5\"", "0 s, 1", "nan,1", "inf,1", "0,O", "t,1"}) {
+    CAPTURE(row);
+    CHECK_THROWS_WITH(first_value(row), Catch::Contains("load.csv:1: found"));
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("Tables are piecewise linear, from the scene or from a file beside it", "[scene][loads]") {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "vitrum_functions_test";
   std::filesystem::create_directories(folder);
