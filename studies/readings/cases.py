@@ -99,5 +99,5 @@ def cases_of(point, quick):
             settings["time.end"] = 40e-6
         if point.member:
             settings |= {f"body.{n}.perturbation": {"amplitude": amplitude, "seed": 1000 * n + point.member} for n in (0, 1)}
-        made[radius, speed] = Case(f"{point.name}/R{radius}-v{speed}", "paper/reference.toml", settings, longest=120.0 if point.part != "cell" else 600.0)
+        made[radius, speed] = Case(f"{point.name}/R{radius}-v{speed}", "paper/reference.toml", settings, longest=900.0)
     return made

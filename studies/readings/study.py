@@ -27,9 +27,10 @@ def cases(quick):
 
 
 def run(job, quick, out):
-    """The runs of a point, and its verdicts."""
+    """The runs of a point, and its verdicts. What was stopped has no summary: nothing is said of it."""
     point = next(point for point in points(quick) if point.name == job)
-    histories = {key: History(compute(case, out / "runs")) for key, case in cases_of(point, quick).items()}
+    outcomes = {key: compute(case, out / "runs") for key, case in cases_of(point, quick).items()}
+    histories = {key: History(outcome) for key, outcome in outcomes.items() if outcome.summary is not None}
     verdicts = {}
     for sentence in sentences:
         found, verdict = judge(sentence, histories)

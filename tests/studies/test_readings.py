@@ -1,5 +1,8 @@
 """The quick study of readings: every reading of its array runs under two integrations and is judged; what the report says of verdicts holds of verdicts that are made up."""
+import json
+import pathlib
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -53,6 +56,25 @@ class Design(unittest.TestCase):
         settings = [tuple(sorted((key, str(value)) for key, value in case.settings.items() if key != "title")) for point in points(False)
                     if point.part == "design" for case in cases_of(point, False).values()]
         self.assertEqual(len(settings), len(set(settings)))
+
+
+class Stopped(unittest.TestCase):
+    def test_nothing_is_said_of_a_run_that_was_stopped(self):
+        from readings import study
+
+        class Outcome:
+            summary = None
+
+        keep, study.compute = study.compute, lambda case, runs: Outcome()
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                point = points(True)[0]
+                study.run(point.name, True, pathlib.Path(folder))
+                verdicts = json.loads((pathlib.Path(folder) / "verdicts" / f"{point.name}.json").read_text())
+        finally:
+            study.compute = keep
+        self.assertEqual({each["verdict"] for each in verdicts.values()}, {"\u2013"})
+        self.assertFalse(any(study.hit(each, True) for each in verdicts.values()))
 
 
 class Analysis(unittest.TestCase):
