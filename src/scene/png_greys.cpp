@@ -38,6 +38,7 @@ std::variant<std::shared_ptr<const Greys>, std::string> read_png_greys(const std
     return fmt::format("{}: found {} x {} pixels, expected at most {}", file, greys->columns, greys->rows,
                        most_pixels);
   picture.format = PNG_FORMAT_GRAY;
+  picture.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // levels of 16 bits mean what those of 8 do
   greys->levels.resize(static_cast<std::size_t>(greys->columns * greys->rows));
   const png_color white{255, 255, 255};
   if (png_image_finish_read(&picture, &white, greys->levels.data(), 0, nullptr) == 0)

@@ -1,13 +1,26 @@
 """Bodies of pictures, unions and holes, and flaws: what the program says of them and computes with them."""
 import json
 import shutil
+import struct
 import unittest
+import zlib
 
 import h5py
 
 from support import CommandLineTest, overrides, read_summary, source
 
 paving = source / "examples" / "crazy_paving.toml"
+
+
+def write_png(path, bits, rows):
+    """A picture of grey levels as most programs write it: without a word of gamma."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    lines = b"".join(b"\0" + b"".join(struct.pack(">H" if bits == 16 else ">B", level) for level in row) for row in rows)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), bits, 0, 0, 0, 0))
+                     + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
 coarse = overrides(space__cell=4e-3, time__end=6e-6, output__every=3e-6, output__checkpoint_every=3e-6)
 
 
@@ -42,6 +55,17 @@ class Shapes(CommandLineTest):
             self.assertAlmostEqual(body["mass"] / body["exact_mass"], 1.0, 7)
         # Stones and mortar fill the picture.
         self.assertAlmostEqual(bodies["stones"]["exact_mass"] / 2500 + bodies["mortar"]["exact_mass"] / 2000, 0.12 * 0.04, 9)
+
+    def test_levels_mean_the_same_in_8_and_16_bits(self):
+        scene = self.folder / "levels.toml"
+        scene.write_text(paving.read_text().replace("crazy_paving.png", "levels.png"))
+        levels = [0, 100, 127, 128, 200, 255]
+        for bits, scale in ((8, 1), (16, 257)):
+            write_png(self.folder / "levels.png", bits, [[scale * level for level in levels]] * 2)
+            with self.subTest(bits=bits):
+                bodies = json.loads(self.vitrum("check", scene, "--json").stdout)["bodies"]
+                for body, density in (("stones", 2500), ("mortar", 2000)):
+                    self.assertAlmostEqual(bodies[body]["exact_mass"] / density, 3 * 2 * 0.02 ** 2, 9)
 
     def test_messages(self):
         scene = self.folder / "scene.toml"

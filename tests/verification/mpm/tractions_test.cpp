@@ -8,6 +8,7 @@
 #include "support/mpm_measure.hpp"
 #include "support/mpm_run.hpp"
 #include "support/random_states.hpp"
+#include "support/resultants.hpp"
 
 using namespace vitrum;
 using namespace vitrum::test;
@@ -33,16 +34,7 @@ std::array<double, 2> resultant(const std::string& geometry, const std::string& 
   MpmScene scene;
   scene.geometry = geometry, scene.shape = shape;
   scene.tables = body("body", body_shape, fmt::format("particles_per_cell = {}", per_cell)) + loads;
-  System system = build_system(parse_scene(scene.text(), "test.toml"), 1);
-  mpm::refresh_grid(system);
-  system.tractions->load(system, 0.0, mpm::configurations(system));
-  mpm::scatter(system, mpm::Scatter::momentum_and_force);
-  std::array<double, 2> sum{};
-  for (std::size_t c = 0; c < 2; ++c) {
-    const double* f = system.grid.field(c == 0 ? mpm::Field::force_0 : mpm::Field::force_1);
-    for (std::size_t n = 0; n < system.grid.blocks().size() * mpm::block_nodes; ++n) sum[c] += f[n];
-  }
-  return sum;
+  return resultant_of_tractions(scene);
 }
 
 }  // namespace
