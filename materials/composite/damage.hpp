@@ -47,11 +47,10 @@ class DamageLaw {
   DamageLaw() = default;
   DamageLaw(const DamageParameters& parameters, const ElasticParameters& elastic);
 
-  /// Damaged moduli, eqs. 5, 6, 8; written without the cancellation of 1 - D.
+  /// Damaged moduli, eqs. 5, 6, 8.
   VITRUM_INLINE Moduli moduli(double x) const {
-    const double nu_bar = poisson_ * (1.0 - x);
-    const double common = undamaged_.bulk * (1.0 - x) * weight(x);
-    return {common / (1.0 - 2.0 * nu_bar), 1.5 * common / (1.0 + nu_bar)};
+    const auto [bulk, shear] = moduli_of(x);
+    return {bulk, shear};
   }
 
   /// lambda / (2 G) of the damaged moduli, nu_bar / (1 - 2 nu_bar).
@@ -62,11 +61,8 @@ class DamageLaw {
 
   /// d(moduli)/dx.
   Moduli moduli_derivative(double x) const {
-    const double nu = poisson_, nu_bar = nu * (1.0 - x), w = weight(x), K = undamaged_.bulk;
-    const double slope = -w + (1.0 - x) * nu * nu * (1.0 - 2.0 * x);
-    const double a = 1.0 - 2.0 * nu_bar, b = 1.0 + nu_bar;
-    return {K * (slope / a - 2.0 * nu * (1.0 - x) * w / (a * a)),
-            1.5 * K * (slope / b + nu * (1.0 - x) * w / (b * b))};
+    const auto [bulk, shear] = slopes_of(x);
+    return {bulk, shear};
   }
 
   /// D = 1 - K_bar/K, eq. 8.
@@ -134,11 +130,12 @@ class DamageLaw {
   }
 
   /// Phi / (undamaged P-wave modulus): <= 0 where a plane whose normal sees the strain `normal_strain` admits
-  /// a discontinuity of the strain rate while damage grows. trace: eps_kk > 0.
-  double bifurcation(double x, double trace, double normal_strain) const {
-    const Moduli now = moduli(x), slope = moduli_derivative(x);
-    const double phi =
-        now.p_wave() +
+  /// a discontinuity of the strain rate while damage grows. trace: eps_kk > 0. Of intervals: a bound.
+  template <class Number>
+  Number bifurcation(const Number& x, const Number& trace, const Number& normal_strain) const {
+    const auto now = moduli_of(x), slope = slopes_of(x);
+    const Number phi =
+        now.bulk + 4.0 / 3.0 * now.shear +
         parameters_.m * x * (slope.bulk + 2.0 * slope.shear * (normal_strain - trace / 3.0) / trace);
     return phi / undamaged_.p_wave();
   }
@@ -150,8 +147,30 @@ class DamageLaw {
   double exponent() const { return parameters_.m; }
 
  private:
-  VITRUM_INLINE double weight(double x) const {
+  template <class Number>
+  struct BulkAndShear {
+    Number bulk, shear;
+  };
+  template <class Number>
+  VITRUM_INLINE Number weight(const Number& x) const {
     return 1.0 - 2.0 * poisson_ + poisson_ * poisson_ * x * (1.0 - x);
+  }
+  /// Moduli of a number or an interval; written without the cancellation of 1 - D.
+  template <class Number>
+  VITRUM_INLINE BulkAndShear<Number> moduli_of(const Number& x) const {
+    const Number nu_bar = poisson_ * (1.0 - x);
+    const Number common = undamaged_.bulk * (1.0 - x) * weight(x);
+    return {common / (1.0 - 2.0 * nu_bar), 1.5 * common / (1.0 + nu_bar)};
+  }
+  /// d(moduli)/dx of a number or an interval.
+  template <class Number>
+  BulkAndShear<Number> slopes_of(const Number& x) const {
+    const double nu = poisson_, K = undamaged_.bulk;
+    const Number nu_bar = nu * (1.0 - x), w = weight(x);
+    const Number slope = -w + (1.0 - x) * nu * nu * (1.0 - 2.0 * x);
+    const Number a = 1.0 - 2.0 * nu_bar, b = 1.0 + nu_bar;
+    return {K * (slope / a - 2.0 * nu * (1.0 - x) * w / (a * a)),
+            1.5 * K * (slope / b + nu * (1.0 - x) * w / (b * b))};
   }
   /// v^m; by multiplication where m is a small integer, which is several times faster than pow.
   double power(double v) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "materials/composite/closed_form.hpp"
+#include "materials/interval.hpp"
 
 // An increment before localisation, leg by leg.
 
@@ -117,9 +118,9 @@ bool CompositeClosedForm<D, Y, C>::is_critical([[maybe_unused]] const Leg& leg,
 
 /// Whether a state between two of a leg may be critical: a bound on both criteria.
 ///
-/// Damage. Phi is a function of x and of y = x (e_n - tr/3)/tr. It falls with y, and where it is positive so
-/// it is at the same y and less x. While damage grows x and x/tr rise (eq. 7), and e_n - tr/3 is convex along
-/// a straight path: x of the end, with the larger e_n - tr/3, bounds Phi.
+/// Damage. Phi of the intervals in which crack density, trace and normal strain stay. The first two rise
+/// while damage grows; the largest normal strain is convex along a straight path, and changes by no more than
+/// the strain does.
 ///
 /// Flow. The criterion is a function of c^2/r^2, centre and radius of the deviator's circle in the plane, in
 /// which the normals in the plane lose and the hoop normal gains; it falls with damage. Between two of
@@ -129,14 +130,14 @@ bool CompositeClosedForm<D, Y, C>::may_localise([[maybe_unused]] const Leg& leg,
                                                 [[maybe_unused]] const CompositeState& from,
                                                 [[maybe_unused]] const CompositeState& to) const {
   if constexpr (C && D) {
-    const double t = trace(to.elastic_strain);
+    const SymmetricTensor &a = from.elastic_strain, &b = to.elastic_strain;
     const bool compressed = !decohesion_.parameters().partial_compression && stays_compressed(from, to);
-    if (leg.tension && to.crack_density > leg.start.crack_density && t > 0.0 && !compressed) {
-      const auto above_mean = [&](const SymmetricTensor& e) {
-        return largest_normal_strain(e) - trace(e) / 3.0;
-      };
-      const double most = std::max({0.0, above_mean(from.elastic_strain), above_mean(to.elastic_strain)});
-      if (damage_.bifurcation(to.crack_density / crack_density_limit, t, t / 3.0 + most) <= 0.0) return true;
+    if (leg.tension && to.crack_density > leg.start.crack_density && trace(b) > 0.0 && !compressed) {
+      if (!(trace(a) > 0.0)) return true;
+      const double at_a = largest_normal_strain(a), at_b = largest_normal_strain(b);
+      const Interval x{from.crack_density / crack_density_limit, to.crack_density / crack_density_limit},
+          stretch{trace(a), trace(b)}, normal{0.5 * (at_a + at_b - norm(b - a)), std::max(at_a, at_b)};
+      if (damage_.bifurcation(x, stretch, normal).low <= 0.0) return true;
     }
   }
   if constexpr (C && Y == Yielding::von_mises) {

@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "materials/interval.hpp"
 #include "support/literal_damage.hpp"
 #include "support/material_samples.hpp"
 #include "support/random_states.hpp"
@@ -107,4 +108,35 @@ TEST_CASE("crack density of eq. 7 and its inverse", "[material][damage]") {
   fractional.m = 5.5;
   const DamageLaw other(fractional, bare_glass().elastic);
   CHECK(other.target(1e-5, 1e20) == Approx(1e20 * std::pow(1e-5, 5.5)).epsilon(1e-13));
+}
+
+TEST_CASE("the criterion of intervals holds all that it is within them, and narrows as they do",
+          "[material][damage][bifurcation]") {
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    DamageParameters p = glass_damage();
+    p.m = random.logarithmic(1.01, 100.0);
+    const DamageLaw law(p, elastic_glass(random.uniform(-0.95, 0.49)));
+    const double x = random.uniform(0.0, 1.0), stretch = random.logarithmic(1e-2, 1.0),
+                 normal = random.uniform(-1.0, 1.0);
+    const double width = random.logarithmic(1e-6, 0.1);
+    const Interval crack_density{x, std::min(x + width, 1.0)}, trace{stretch, stretch * (1.0 + width)},
+        strain{normal - width, normal + width};
+    const Interval bound = law.bifurcation(crack_density, trace, strain);
+    double low = bound.high, high = bound.low;
+    for (int k = 0; k < 100; ++k) {
+      const double value =
+          law.bifurcation(random.uniform(crack_density.low, crack_density.high),
+                          random.uniform(trace.low, trace.high), random.uniform(strain.low, strain.high));
+      low = std::min(low, value), high = std::max(high, value);
+    }
+    const double rounding = 1e-12 * (1.0 + std::abs(bound.low) + std::abs(bound.high));
+    CAPTURE(p.m, x, stretch, normal, width);
+    REQUIRE(bound.low <= low + rounding);
+    REQUIRE(high <= bound.high + rounding);
+    const Interval half = law.bifurcation(Interval(x, 0.5 * (crack_density.low + crack_density.high)),
+                                          Interval(stretch, stretch * (1.0 + 0.5 * width)),
+                                          Interval(normal - 0.5 * width, normal + 0.5 * width));
+    REQUIRE(half.high - half.low <= 0.75 * (bound.high - bound.low) + rounding);
+  }
 }
