@@ -1,5 +1,6 @@
 """What a study proposes itself, as far as the program takes it for the scene: ladders, references, and the refinements that error bars are made of."""
-from study.file import Method, Rung, answer, resolved
+from study.methods import Method, Rung
+from study.scene import answer, resolved
 
 tight_rtol, tight_courant = 1e-7, 0.0125
 
