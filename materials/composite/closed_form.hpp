@@ -125,14 +125,16 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   void release_excess_shear(CompositeState& s, double done, PointReport& report) const;
   Followed state_along(const Leg& leg, double fraction) const;
   double leg_end(const Leg& leg) const;
+  void record_events(const Leg& leg, const CompositeState& end, double end_fraction, double done,
+                     PointReport& report) const;
+  double damage_dissipation(const Leg& leg, const CompositeState& end, double end_fraction) const;
+
+  // localisation_search.hpp
   bool is_critical(const Leg& leg, const CompositeState& s) const;
   bool may_localise(const Leg& leg, const CompositeState& from, const CompositeState& to) const;
   std::array<double, 2> turning_points(const Leg& leg, double end) const;
   bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
   bool find_critical(const Leg& leg, const Place& from, const Place& to, int halvings, double& first) const;
-  void record_events(const Leg& leg, const CompositeState& end, double end_fraction, double done,
-                     PointReport& report) const;
-  double damage_dissipation(const Leg& leg, const CompositeState& end, double end_fraction) const;
 
   // localised.hpp
   void advance_localised(CompositeState& s, const SymmetricTensor& strain, double duration, double done,

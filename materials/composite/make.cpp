@@ -7,6 +7,7 @@
 #include "materials/composite/flow_behind_crack.hpp"
 #include "materials/composite/intact.hpp"
 #include "materials/composite/jumps.hpp"
+#include "materials/composite/localisation_search.hpp"
 #include "materials/composite/localised.hpp"
 #include "materials/composite/plane.hpp"
 #include "materials/composite/projection.hpp"
