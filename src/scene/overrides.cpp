@@ -1,15 +1,14 @@
 #include "scene/overrides.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/key_depth.hpp"
+#include "scene/override_keys.hpp"
+#include "scene/override_text.hpp"
 #include "scene/scene_tables.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/table_view.hpp"
@@ -21,145 +20,6 @@ namespace {
 
 /// In place of a value: takes the key away. No TOML value, so that none can be meant instead.
 constexpr std::string_view removal = "none";
-
-/// A fault of the argument: what was found and expected at `key`.
-struct Refusal {
-  std::string key, fact;
-};
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::string joined(const std::vector<std::string>& keys, std::size_t count) {
-  std::string path;
-  for (std::size_t i = 0; i < count; ++i) path = join_path(path, keys[i]);
-  return path;
-}
-
-/// One part of a dotted key.
-struct KeyPart {
-  std::string text;
-  bool in_quotes;  ///< then it is a name, even of digits
-};
-
-struct Assignment {
-  std::vector<KeyPart> parts;
-  std::string_view value;
-};
-
-/// Splits `a."b.c".0=VALUE` at the first '=' and the dots outside quotes; nothing when a part is missing.
-std::optional<Assignment> split(std::string_view text) {
-  Assignment result;
-  std::size_t begin = 0;
-  char quote = '\0';
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quote != '\0') {
-      if (c == quote) quote = '\0';
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '.' || c == '=') {
-      std::string_view key = trimmed(text.substr(begin, i - begin));
-      const bool in_quotes =
-          key.size() >= 2 && key.front() == key.back() && (key.front() == '"' || key.front() == '\'');
-      if (key.empty()) return std::nullopt;
-      result.parts.push_back({std::string(in_quotes ? key.substr(1, key.size() - 2) : key), in_quotes});
-      begin = i + 1;
-      if (c == '=') {
-        result.value = trimmed(text.substr(begin));
-        return result;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-bool looks_like_text(std::string_view value) {
-  return !value.empty() && value.find_first_of("\"'[]{}=\n") == std::string_view::npos &&
-         value.find_first_not_of("+-.0123456789eE_") != std::string_view::npos;
-}
-
-/// The document `value = VALUE`, so that toml++ reads VALUE by its own rules.
-toml::table parse_value(const Assignment& assignment, const std::string& path) {
-  Refusal refusal{path, fmt::format("found {}, expected a TOML value",
-                                    assignment.value.empty() ? "nothing" : assignment.value)};
-  if (looks_like_text(assignment.value))
-    refusal.fact += fmt::format("; quote a string: --set '{}={}'", path, toml_quoted(assignment.value));
-  if (find_deep_key(assignment.value)) throw refusal;
-  try {
-    toml::table parsed = toml::parse(fmt::format("value = {}", assignment.value), std::string_view{});
-    if (parsed.size() == 1) return parsed;  // a line break in VALUE could smuggle in further keys
-  } catch (const toml::parse_error&) {
-    throw refusal;
-  }
-  throw refusal;
-}
-
-bool to_index(const std::string& key, std::size_t& index) {
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  return error == std::errc{} && end == key.data() + key.size();
-}
-
-/// The item of `list` that `keys[depth]` names.
-std::size_t item_index(const toml::array& list, const std::vector<std::string>& keys, std::size_t depth) {
-  const std::string& key = keys[depth];
-  std::size_t index = 0;
-  if (to_index(key, index) && index < list.size()) return index;
-  const std::string range =
-      list.empty() ? "the list is empty" : fmt::format("expected an index from 0 to {}", list.size() - 1);
-  throw Refusal{joined(keys, depth + 1),
-                fmt::format("found index {} of a list of length {}, {}", key, list.size(), range)};
-}
-
-bool is_index(std::string_view key) {
-  return std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// The index, as a key, of the item with this `name` in a list of tables.
-std::string index_of(const std::string& name, const toml::array& list, const std::string& path) {
-  std::vector<std::string> names, indices;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const toml::table* item = list[i].as_table();
-    const std::optional<std::string> own =
-        item != nullptr ? (*item)["name"].value<std::string>() : std::nullopt;
-    if (own) names.push_back(*own);
-    if (own == name) indices.push_back(std::to_string(i));
-  }
-  if (names.empty()) return name;  // a wrong index
-  const std::string key = join_path(path, name);
-  if (indices.empty())
-    throw Refusal{key,
-                  with_suggestion(fmt::format("found no item of this name, expected one of {} or an index "
-                                              "from 0 to {}",
-                                              schema::quoted_list(names), list.size() - 1),
-                                  name, names)};
-  if (indices.size() > 1)
-    throw Refusal{key, fmt::format("found {} items of this name, expected an index: one of {}",
-                                   indices.size(), fmt::join(indices, ", "))};
-  return indices.front();
-}
-
-/// The keys with indices in place of names, as far as the document goes.
-std::vector<std::string> with_indices(const toml::table& document, const std::vector<KeyPart>& parts) {
-  std::vector<std::string> keys;
-  const toml::node* node = &document;
-  for (const KeyPart& part : parts) {
-    const toml::array* list = node != nullptr ? node->as_array() : nullptr;
-    const bool by_name = list != nullptr && (part.in_quotes || !is_index(part.text));
-    keys.push_back(by_name ? index_of(part.text, *list, joined(keys, keys.size())) : part.text);
-    if (node == nullptr) continue;
-    const toml::table* table = node->as_table();
-    std::size_t index = 0;
-    if (list != nullptr)
-      node = to_index(keys.back(), index) ? list->get(index) : nullptr;
-    else
-      node = table != nullptr ? table->get(part.text) : nullptr;
-  }
-  return keys;
-}
 
 template <class Parent, class Where>
 void store(Parent& parent, const Where& where, toml::node& value) {
@@ -298,7 +158,7 @@ void drop_alternatives(toml::table& document, const std::vector<std::string>& ke
 
 void apply_override(toml::table& document, std::string_view text, std::size_t number,
                     Diagnostics& diagnostics) {
-  const std::optional<Assignment> assignment = split(text);
+  const std::optional<Assignment> assignment = split_override(text);
   if (!assignment) {
     diagnostics.add_override(
         number, "", fmt::format("found {}, expected KEY=VALUE with a dotted KEY", toml_quoted(text)));
@@ -314,7 +174,7 @@ void apply_override(toml::table& document, std::string_view text, std::size_t nu
     const std::vector<std::string> keys = with_indices(document, assignment->parts);
     if (assignment->value == removal) return remove(document, keys, number, diagnostics);
     const std::string path = joined(keys, keys.size());
-    toml::table parsed = parse_value(*assignment, path);
+    toml::table parsed = parse_value(assignment->value, path);
     diagnostics.note_override(assign(document, keys, *parsed.get("value")), number);
     drop_alternatives(document, keys, diagnostics);
   } catch (const Refusal& refusal) {
