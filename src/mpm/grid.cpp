@@ -135,7 +135,7 @@ void Grid::set_blocks(std::vector<Block>&& with_particles) {
     find_[key_of(b)] = n;
   }
   moved_.resize(tile_block_.size());
-  for (Moved& tile : moved_) tile.clear();
+  for (MovesOfTile& tile : moved_) tile.clear();
   add_neighbours(by_row);
   std::vector<std::int32_t> lines;
   for (const Block& b : blocks_) lines.push_back(by_row ? b.row : b.column);

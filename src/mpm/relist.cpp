@@ -19,7 +19,7 @@ std::int64_t checked_cell(double x, const Body& body, std::size_t particle) {
 }
 
 bool Grid::some_left() const {
-  return std::any_of(moved_.begin(), moved_.end(), [](const Moved& tile) { return tile.some(); });
+  return std::any_of(moved_.begin(), moved_.end(), [](const MovesOfTile& tile) { return tile.some(); });
 }
 
 void Grid::note_moved(std::size_t tile, const std::vector<Body>& bodies, bool may_have_left) {
@@ -31,7 +31,7 @@ void Grid::note_moved(std::size_t tile, const std::vector<Body>& bodies, bool ma
 /// block are widened where particles have only spread.
 void Grid::find_movers(std::size_t tile, const std::vector<Body>& bodies) {
   Block& block = blocks_[tile];
-  Moved& moved = moved_[tile];
+  MovesOfTile& moved = moved_[tile];
   const double per_cell = 1.0 / cell_;
   CellRange cells(block, per_cell);
   for (std::size_t n = 0; n < body_count_; ++n) {
@@ -64,10 +64,10 @@ void Grid::relist(const std::vector<Body>& bodies, parallel::ThreadTeam& team) {
     collect_movers(first_tile_of(thread, threads), first_tile_of(thread + 1, threads), found_[thread]);
   });
   // Only making all lists anew tells the same lost particle whichever tile it was in.
-  if (std::any_of(found_.begin(), found_.end(), [](const Found& f) { return f.lost; }))
+  if (std::any_of(found_.begin(), found_.end(), [](const MovesOfThread& f) { return f.lost; }))
     return rebuild(bodies);
   movers_.clear();
-  for (const Found& f : found_) movers_.insert(movers_.end(), f.movers.begin(), f.movers.end());
+  for (const MovesOfThread& f : found_) movers_.insert(movers_.end(), f.movers.begin(), f.movers.end());
   const bool serve = blocks_serve();
   if (serve && movers_.empty()) return;
   old_.offset.swap(offset_), old_.index.swap(index_), old_.list.clear();
@@ -86,15 +86,15 @@ void Grid::relist(const std::vector<Body>& bodies, parallel::ThreadTeam& team) {
     }
   });
   scattered_ = 0;
-  for (const Found& f : found_) scattered_ += f.scattered;
+  for (const MovesOfThread& f : found_) scattered_ += f.scattered;
 }
 
 /// Gathers the movers of the tiles [first, last), with the lists that they go to as blocks are now.
-void Grid::collect_movers(std::size_t first, std::size_t last, Found& found) {
+void Grid::collect_movers(std::size_t first, std::size_t last, MovesOfThread& found) {
   found.movers.clear();
   found.lost = false, found.blocks_serve = true;
   for (std::size_t tile = first; tile < last; ++tile) {
-    Moved& moved = moved_[tile];
+    MovesOfTile& moved = moved_[tile];
     if (!moved.some()) continue;
     found.lost |= moved.lost;
     if (moved.wider) found.blocks_serve &= has_neighbours(blocks_[tile]);
@@ -139,7 +139,8 @@ bool Grid::has_neighbours(const Block& block) const {
 /// Whether the blocks there are can take the movers: none is new, none is empty afterwards, and none reaches
 /// for nodes that are not there. Widens their cells.
 bool Grid::blocks_serve() {
-  if (!std::all_of(found_.begin(), found_.end(), [](const Found& f) { return f.blocks_serve; })) return false;
+  if (!std::all_of(found_.begin(), found_.end(), [](const MovesOfThread& f) { return f.blocks_serve; }))
+    return false;
   return std::all_of(movers_.begin(), movers_.end(), [&](const Mover& m) {
     Block& to = blocks_[m.to / body_count_];
     return !widen(to, m.i, m.j) || has_neighbours(to);
