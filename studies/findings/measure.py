@@ -52,7 +52,7 @@ def place(first):
 
 def span(values, scale=1.0, digits=3):
     values = [scale * value for value in values if value is not None]
-    return f"{number(min(values), digits)} to {number(max(values), digits)}" if values else "none"
+    return " to ".join(dict.fromkeys(number(value, digits) for value in (min(values), max(values)))) if values else "none"
 
 
 def kinetic_apart(one, other):

@@ -1,6 +1,7 @@
 """The tables of docs/reports/performance-measurements.md."""
 import datetime
 import math
+import os
 import platform
 import statistics
 import subprocess
@@ -33,9 +34,9 @@ def version(program):
 def header(program, repetitions):
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()
     processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())
-    return (f"# Performance: every measurement\n\n`studies/performance/measure.py`, {datetime.date.today()}, {version[0]}, {version[1]}, "
-            f"{processor}. Medians of {repetitions} runs; the spread is half the distance of the quartiles. What the figures mean stands "
-            "in [performance](performance.md).")
+    return (f"# Performance: every measurement\n\n*Measured by `studies/performance/measure.py`, {datetime.date.today()}; {version[0]}; {' '.join(version[1].split())}; "
+            f"{processor.strip()}, {os.cpu_count()} cores.*\n\nMedians of {repetitions} runs. The spread is half the distance of the quartiles. What the figures mean: "
+            "[performance](performance.md).")
 
 
 def machine_and_scenes(benchmarks):
@@ -44,8 +45,8 @@ def machine_and_scenes(benchmarks):
     rows = [(label, f"{rate / 1e6:.1f}", f"{rate * flops / 1e9:.1f}", percent(rate * flops / scalar), percent(rate * flops / vector),
              f"{rate * moved / 1e9:.1f}", percent(rate * moved / bandwidth)) for label, rate in scene_points(benchmarks)]
     text = (f"## Machine and roofline\n\nOne core: memory {bandwidth / 1e9:.1f} GB/s (triad), scalar peak {scalar / 1e9:.1f}, vector peak "
-            f"{vector / 1e9:.1f} Gflop/s. Bar, MUSL: {flops:.0f} flops and {moved} bytes a particle-step (counted, "
-            "`studies/performance/counts.py`); they leave the caches only where the scene is larger than these.\n\n")
+            f"{vector / 1e9:.1f} Gflop/s. The bar with MUSL takes {flops:.0f} flops and {moved} bytes a particle-step (counted, "
+            "`studies/performance/counts.py`). Bytes leave the caches only where the scene is larger than these.\n\n")
     text += table(["bar", "M particle-steps/s", "Gflop/s", "of scalar peak", "of vector peak", "GB/s", "of memory"], rows)
     scenes = [(name.removesuffix("/real_time"), f"{median(e, 'items_per_second') / 1e6:.2f}", percent(spread(e, "items_per_second")))
               for name, e in benchmarks.items() if name.startswith(("elastic_bar", "colliding_disks", "reference_run", "large_plate"))]

@@ -7,6 +7,7 @@ from paper.history import History
 from paper.sentences import judge, made_energy, sentences
 from study.command import main
 from study.outcome import run as compute
+from study.page import paper_title
 from study.tables import markdown, number, write_csv
 
 from readings import analysis, figures
@@ -219,7 +220,7 @@ def _page_values(quick, verdicts, effects, shares, cells, interactions):
     pairs = sorted(((share, key, of) for key, parts in interactions.items() for of, share in parts.items() if "×" in of), reverse=True)[:12]
     group = analysis.cover(hits)
     return {
-        "full": not quick, "factors": markdown(["", "reference", "other readings"], [[f.label, f.levels[0].label, ", ".join(x.label for x in f.levels[1:])] for f in factors]),
+        "full": not quick, "paper": paper_title, "factors": markdown(["", "reference", "other readings"], [[f.label, f.levels[0].label, ", ".join(x.label for x in f.levels[1:])] for f in factors]),
         "points": len(verdicts.points), "runs": sum(len(cases_of(point, quick)) for point in verdicts.points), "rows": len({point.row for point in design}),
         "readings_tried": len({point.row for point in verdicts.points}), "total": len(verdicts.statements), "tests": len(effects),
         "significant": sum(effect["p"] <= significant for effect in effects.values()),

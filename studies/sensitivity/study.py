@@ -94,6 +94,12 @@ def _of_space(rows):
             "cell_cylinder": shift("cylinder_velocity"), "cell_perforated": shift("perforated")}
 
 
+def _of_phases(asked, found):
+    """Range of the medians of the energy made, over the lengths of the implicit method's phases."""
+    medians = [100.0 * found[ensemble.name]["made"]["median"] for ensemble in asked.get("remap", (None, []))[1] if found[ensemble.name]["made"]["n"]]
+    return {"remap_made": f"{number(min(medians), 2)} and {number(max(medians), 2)}" if medians else ""}
+
+
 def _when(time, values, level):
     above = np.nonzero(values > level)[0]
     return f"{number(1e6 * time[above[0]])} µs" if above.size else "never"
@@ -118,7 +124,7 @@ def _page_values(study, asked, rows, found, spreads, quick):
         "robustness": markdown(["prediction", "base: median (5 … 95 %)", "scatter (%)", "shift, resolved steps and tolerances (%)", *[f"shift by {question} (%)" for question in groups], "verdict"], robust),
         "ensembles": markdown(["ensemble", "members", "failed", *[f"{label} ({unit})" if unit else label for label, unit, _ in quantities.values()]], everyone),
         "members": max(len(ensemble.cases) for ensemble in ensembles.values()), "until": number(1e6 * study.scene["time"]["end"]), "full": not quick,
-        **_of_space(rows),
+        **_of_space(rows), **_of_phases(asked, found),
         "runs": number(sum(len(ensemble.cases) for ensemble in ensembles.values())), "failed": sum(failed.values()),
         "apart": markdown(["run", "1e-9 at", "1e-6 at", "1e-3 at", "1e-2 at", "in the end"], apart),
         "robust_list": ", ".join(row["prediction"] for row in rows if row["verdict"].startswith("robust")) or "none",

@@ -68,9 +68,12 @@ def statistics(values):
 lowest_order = 0.6  # below, what is left to go is a guess
 
 
-def convergence(stats):
+signed = ("first_time", "cylinder_velocity", "residual")  # all others cannot be negative
+
+
+def convergence(stats, signed=True):
     """Of the three finest ensembles over halved cells that have the measure: (order, limit) where the medians approach a limit, and what to call it. The
-    scatter of members decides whether a change is one."""
+    scatter of members decides whether a change is one. What cannot be negative (not `signed`) and falls towards less than nothing vanishes."""
     stats = [each for each in stats if each["n"]][-3:]
     if len(stats) < 3:
         return None, None, "–"
@@ -83,4 +86,5 @@ def convergence(stats):
     ratio = second / first
     if -math.log2(ratio) < lowest_order:
         return None, None, "no limit seen"
-    return -math.log2(ratio), stats[2]["median"] + second * ratio / (1.0 - ratio), "converges"
+    limit = stats[2]["median"] + second * ratio / (1.0 - ratio)
+    return (-math.log2(ratio), limit, "converges") if signed or limit >= 0.0 else (None, 0.0, "vanishes")

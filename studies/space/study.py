@@ -7,7 +7,7 @@ from study.tables import markdown, number, write_csv
 
 from space import figures
 from space.cases import all_settings, asked, base, cells_of, end, ensemble, fixed, fixed_four, four, paper, paper_four, quick_end, shipped, shipped_ensemble
-from space.measures import convergence, of_run, of_shipped, quantities, shipped_quantities, statistics
+from space.measures import convergence, of_run, of_shipped, quantities, shipped_quantities, signed, statistics
 
 name = "space"
 
@@ -69,7 +69,7 @@ def report(quick, out):
     orders = []
     for setting in all_settings(quick).values():
         for key in quantities:
-            order, limit, verdict = convergence([found[setting.name, cell][key] for cell in cells_of(setting, quick)])
+            order, limit, verdict = convergence([found[setting.name, cell][key] for cell in cells_of(setting, quick)], key in signed)
             orders.append({"setting": setting.name, "measure": key, "order": order, "limit": limit, "verdict": verdict})
     write_csv(out / "tables" / "convergence.csv", list(orders[0]), orders)
     for key, (title, settings) in asked(quick).items():
@@ -87,6 +87,15 @@ def _shipped_table(shipped_members):
         stats = {key: statistics([row[key] for row in of_members]) for key in shipped_quantities}
         rows.append([f"`{scene}.toml`", cell, count, *[_cell_text(key, stats[key]) for key in shipped_quantities]])
     return markdown(["scene", "cell (mm)", "particles a cell", *_heads("", shipped_quantities)[2:]], rows) if rows else ""
+
+
+def _converging(orders, setting):
+    """What is said of the measures of a setting over its cells; nothing where there are too few cells."""
+    judged = {quantities[row["measure"]][0]: row["verdict"] for row in orders if row["setting"] == setting.name and row["verdict"] != "–"}
+    if not judged:
+        return "One cell alone says nothing of convergence"
+    settled = [f"{name} ({verdict})" for name, verdict in judged.items() if verdict != "no limit seen"]
+    return f"Over the cells {len(judged) - len(settled)} of {len(judged)} measures show no limit ({setting.label}). The others: {', '.join(settled) or 'none'}"
 
 
 def _page_values(members, found, orders, shipped_members, quick):
@@ -110,7 +119,7 @@ def _page_values(members, found, orders, shipped_members, quick):
     values |= dict.fromkeys((f"{name}_ratio" for name in ("early", "inner", "lower", "strength", "paper_area", "fixed_area", "fine_area") if quick), "")
     rows = [row for each in (members, shipped_members) for of_place in each.values() for row in of_place]
     return values | {
-        "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
+        "converging": _converging(orders, base), "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
         "failed": sum(row["residual"] is None for row in rows), "full": not quick, "shipped": _shipped_table(shipped_members),
         "verdicts": markdown(["setting", "measure", "over the cells", "order", "limit"], verdicts) if verdicts else "", "tables": "\n\n".join(tables),
         "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}](figures/{key}.png)" for key, (title, _) in asked(quick).items()),

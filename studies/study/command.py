@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from study.case import check
 from study.outcome import StudyError
-from study.page import PageError, check_pictures, fill, provenance, publish, write_blocks
+from study.page import PageError, assemble, check_pictures, fill, publish, write_blocks
 
 
 def _check(cases):
@@ -24,7 +24,7 @@ def _report(study, quick, out):
     if values is None:  # it has written its page itself
         return 0
     folder = pathlib.Path(str(sys.modules[study.__name__].__file__)).parent
-    page = fill((folder / "page.md").read_text(), values) + "\n" + provenance(study.name, quick, out)
+    page = assemble(fill((folder / "page.md").read_text(), values), study.name, quick, out)
     check_pictures(page, out / "figures")
     blocks = {target: fill((folder / template).read_text(), study.block_values(quick, out)) for target, template in getattr(study, "blocks", {}).items()}
     for target, text in blocks.items():

@@ -57,14 +57,24 @@ def run_times(out):
     return len(seconds), sum(seconds)
 
 
-def provenance(name, quick, out):
-    """Command, commit, machine and time, as the end of a page."""
-    count, seconds = run_times(out)
+def made_where(name, quick):
+    """Command, date, commit and machine: what a page of numbers begins with."""
     command = f"./quickstart study {name}" + (" --quick" if quick else "")
+    return f"*Measured by `{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {machine()}.*"
+
+
+def provenance(name, quick, out):
+    """What was run, and where text, tables and figures stand: what a page ends with."""
+    count, seconds = run_times(out)
     return ("## How this page was made\n\n"
-            f"`{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {machine()}; {count:,} runs, {seconds:,.0f} s together. "
-            "The program writes this page; do not edit it. The text is that of "
-            f"`studies/{name}/page.md`; tables (CSV) and all figures (PNG, PDF) stand in `out/study-{name}{'-quick' if quick else ''}`.\n")
+            f"{count:,} runs, {seconds:,.0f} s together. The program writes this page; do not edit it. The text is that of `studies/{name}/page.md`. "
+            f"Tables (CSV) and all figures (PNG, PDF) stand in `out/study-{name}{'-quick' if quick else ''}`.\n")
+
+
+def assemble(text, name, quick, out):
+    """The page: below its title who measured it, where and when; at its end what was run."""
+    title, body = text.split("\n", 1)
+    return f"{title}\n\n{made_where(name, quick)}\n{body}\n{provenance(name, quick, out)}"
 
 
 def publish(page, figures, target, beside):

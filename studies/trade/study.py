@@ -4,6 +4,7 @@ import sys
 import numpy as np
 from study.command import main
 from study.files import cases, jobs, long_run, run  # noqa: F401
+from study.ladders import levels
 from study.tables import markdown, number, write_csv
 
 from trade import figures
@@ -47,6 +48,13 @@ def _divergence(problem, shape):
     return time, velocity, np.abs(one / two - 1.0)
 
 
+def _of_implicit(problem):
+    """The least error of velocity of the implicit ladders, against the reference of their own and against that of the particle system."""
+    rows = [row for row in problem.linear() if row["family"].startswith("dirk")]
+    least = {kind: min((row[key] for row in rows if row.get(key) is not None), default=None) for kind, key in (("own", "own velocity"), ("apart", "velocity"))}
+    return {f"implicit_{kind}_{problem.key}": number(value, 2) for kind, value in least.items()}
+
+
 def _when(time, values, level):
     above = np.nonzero(values > level)[0]
     return f"at {number(1e6 * time[above[0]])} µs" if above.size else "never"
@@ -64,7 +72,8 @@ def _page_values(problems, apart, advice, locals_, quick):
         "recommendations": markdown(["problem", "quantity", "error", "cheapest", "s", "achieved", "cheapest fixed step", "s", "references apart"],
                                     [[row["problem"], row["quantity"], f"{100 * row['level']:g} %", row["cheapest"], number(row.get("seconds"), 2), number(row.get("achieved"), 2),
                                       row.get("cheapest fixed step") or "–", number(row.get("seconds of the fixed step"), 2), number(row["references apart"], 2)] for row in advice]),
-        "references": table,
+        "cheapest_smooth": next(row["cheapest"] for row in advice if (row["problem"], row["quantity"], row["level"]) == (problems["impact"].title, "velocity", min(levels))),
+        "references": table, **_of_implicit(problems["impact"]), **_of_implicit(problems["onset"]),
         "order_usf": number(_order(problems["impact"].rows, "usf"), 3), "order_musl": number(_order(problems["impact"].rows, "musl"), 3),
         "impact_floor": number(floors["impact"]["linear", "velocity"], 2), "onset_floor": number(floors["onset"]["linear", "velocity"], 2),
         "failure_floor": number(floors["failure"]["linear", "velocity"], 2),

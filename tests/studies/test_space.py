@@ -31,6 +31,9 @@ class Space(StudyTest):
         order, limit, verdict = convergence(of)
         self.assertEqual((order, limit, verdict), (2.0, 2.0, "converges"))
         self.assertEqual(convergence([statistics([value]) for value in (1.0, 2.0, 4.0)])[2], "no limit seen")
+        falling = [statistics([value]) for value in (6.0, 3.0, 1.1)]
+        self.assertEqual(convergence(falling)[2], "converges")
+        self.assertEqual(convergence(falling, signed=False), (None, 0.0, "vanishes"))
         self.assertEqual(convergence([statistics([1.0, 1.2]), statistics([1.0, 1.3]), statistics([0.9, 1.2])])[2], "within its scatter")
         self.assertEqual(convergence(of[:2])[2], "–")
 
