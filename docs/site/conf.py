@@ -8,20 +8,19 @@ import pathlib
 import re
 import shutil
 
+docs = pathlib.Path(__file__).resolve().parents[1]
+studies = sorted(f"reports/{page.stem}" for page in docs.glob("reports/study-*.md"))  # as far as they have been run
 navigation = {
     "Start": ["start/install", "start/first-run", "start/reading-a-result"],
     "Tutorials": ["tutorials/laminate", "tutorials/explicit-or-adaptive", "tutorials/how-sure", "tutorials/slow-test", "tutorials/blast-on-a-window"],
-    "How to": ["howto/contact", "howto/loads", "howto/tolerance", "howto/resume", "howto/studies", "howto/clusters", "howto/python", "howto/report", "howto/paraview",
+    "How to": ["howto/contact", "howto/loads", "howto/shapes", "howto/tolerance", "howto/resume", "howto/studies", "howto/clusters", "howto/python", "howto/report", "howto/paraview",
                "howto/own-law", "howto/own-observer", "howto/development"],
     "Theory": ["theory/index", "theory/paper", "theory/strain-and-stress", "theory/damage", "theory/bifurcation", "theory/decohesion", "theory/von-mises", "theory/drucker-prager",
                "theory/events", "theory/other-laws", "theory/local-equations", "theory/discrete-equations", "theory/grid", "theory/boundaries", "theory/loads", "theory/contact",
                "theory/turning-bodies", "theory/explicit", "theory/adaptive", "theory/integrators", "theory/energy", "theory/failure", "theory/resolution"],
     "Reference": ["reference/scene", "reference/materials", "reference/result"],
-    "Reports": ["reports/verification", "reports/findings", "reports/study-paper", "reports/study-trade", "reports/study-sensitivity", "reports/study-space", "reports/study-stability",
-                "reports/performance", "reports/performance-measurements", "reports/performance-history"],
+    "Reports": ["reports/verification", "reports/findings", *studies, "reports/performance", "reports/performance-measurements", "reports/performance-history"],
 }
-
-docs = pathlib.Path(__file__).resolve().parents[1]
 named = {page for pages in navigation.values() for page in pages}
 more = sorted({page.relative_to(docs).with_suffix("").as_posix() for page in docs.rglob("*.md")} - named - {"index"})
 if more:

@@ -130,7 +130,7 @@ def block_values(quick, out):
     steps = {key: row(compute(case, out / "runs")) for key, case in step_cases(quick).items()}
     reference = row(compute(picture_cases(quick)["reference"], out / "runs"))
     return {
-        "commit": commit(), "ratio": number(checked(scene)["step_to_critical"], 2), "usf_paper": ending(steps["usf", 2e-7]), "musl_paper": ending(steps["musl", 2e-7]),
+        "commit": commit(), "ratio": number(checked(scene)["step_to_critical"], 2), "usf_paper": ending(steps["usf", 2e-7]),
         "residual": percent(abs(reference["residual"])),
     }
 
