@@ -1,4 +1,5 @@
 """README, docs/start, docs/tutorials and what is fenced in docs/howto do what they say: every code block is executed, in a folder of its own, at low resolution."""
+import codeop
 import sys
 import tempfile
 import textwrap
@@ -20,6 +21,19 @@ class Pages(unittest.TestCase):
         for page in followed:
             with self.subTest(page=page.name), tempfile.TemporaryDirectory(prefix="vitrum-") as folder:
                 pages.test(page, folder)
+
+    def test_python_may_be_pasted(self):
+        """Into an interpreter that reads line by line: a blank line, and nothing else, ends what is indented."""
+        for page in followed:
+            for block in pages.blocks(page):
+                if block.kind == "python":
+                    with self.subTest(block=block.place):
+                        typed = []
+                        for line in [*block.text.splitlines(), ""]:
+                            typed.append(line)
+                            if codeop.compile_command("\n".join(typed)) is not None:
+                                typed = []
+                        self.assertEqual(typed, [])
 
     def test_no_block_hides_from_the_test(self):
         """Fenced blocks are executed; so none is indented."""
