@@ -10,11 +10,11 @@
 #include "app/failed_point.hpp"
 #include "app/messages.hpp"
 #include "app/signals.hpp"
+#include "integrators/grid/grid_method.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
-#include "output/sha256.hpp"
-#include "integrators/grid/grid_method.hpp"
 #include "scene/input_error.hpp"
+#include "scene/sha256.hpp"
 #include "scene/write_scene.hpp"
 
 namespace vitrum::app {
@@ -39,7 +39,7 @@ Simulation::Simulation(const Scene& scene, System system, const RunOptions& opti
   const std::vector<const Material*> materials = output::materials_of(system_.bodies);
   fields_ = output::select_fields(scene, materials);
   if (options_.no_fields) fields_.clear();
-  provenance_ = output::make_provenance(options.command, output::sha256(resolved_toml(scene)));
+  provenance_ = output::make_provenance(options.command, sha256(resolved_toml(scene)));
   catch_signals();
   options.resume ? resume() : start();
 }

@@ -14,7 +14,7 @@
 #include "output/hdf5.hpp"
 #include "output/regular_file.hpp"
 #include "output/result_layout.hpp"
-#include "output/sha256.hpp"
+#include "scene/sha256.hpp"
 
 namespace vitrum::output {
 namespace {

@@ -8,7 +8,7 @@
 #include "output/checkpoint_header.hpp"
 #include "output/hdf5.hpp"
 #include "output/result_layout.hpp"
-#include "output/sha256.hpp"
+#include "scene/sha256.hpp"
 
 namespace vitrum::output {
 namespace {

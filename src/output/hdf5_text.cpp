@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "output/hdf5_internal.hpp"
-#include "output/sha256.hpp"
+#include "scene/sha256.hpp"
 
 // HDF5 keeps texts of variable length in a heap of its own that carries no checksum: one flipped bit there
 // makes HDF5 1.10 loop or read beyond its memory. Such texts are never read here. What this program reads has

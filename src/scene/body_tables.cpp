@@ -78,7 +78,10 @@ const Table& image_table() {
         "1",
         {0.0, 255.0},
         "lowest and highest grey level of the body, both included; 0 is black, 255 white",
-        required}}));
+        required},
+       {"sha256", &Image::sha256,
+        "of the picture's file, hexadecimal, as a resolved scene has it: another picture is refused; absent: "
+        "any"}}));
   return table;
 }
 

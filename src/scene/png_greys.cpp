@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include "scene/input_text.hpp"
+#include "scene/sha256.hpp"
 
 namespace vitrum::scene {
 namespace {
@@ -11,25 +12,25 @@ namespace {
 constexpr std::int64_t most_pixels = 16'000'000;
 
 /// libpng's state, which it frees itself once all has been read.
-struct Picture : png_image {
-  Picture() : png_image{} { version = PNG_IMAGE_VERSION; }
-  Picture(const Picture&) = delete;
-  Picture& operator=(const Picture&) = delete;
-  ~Picture() { png_image_free(this); }
+struct Decoder : png_image {
+  Decoder() : png_image{} { version = PNG_IMAGE_VERSION; }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  ~Decoder() { png_image_free(this); }
 };
 
 }  // namespace
 
-std::variant<std::shared_ptr<const Greys>, std::string> read_png_greys(const std::filesystem::path& folder,
-                                                                       const std::string& name) {
+std::variant<Picture, std::string> read_png_greys(const std::filesystem::path& folder,
+                                                  const std::string& name) {
   const std::string file = (folder / name).string();
   std::string bytes;
   try {
-    bytes = read_input(file).text;
+    bytes = read_file(file, "a PNG picture");
   } catch (const std::runtime_error& error) {
     return std::string(error.what());
   }
-  Picture picture;
+  Decoder picture;
   if (png_image_begin_read_from_memory(&picture, bytes.data(), bytes.size()) == 0)
     return fmt::format("{}: {}", file, picture.message);
   auto greys = std::make_shared<Greys>();
@@ -43,7 +44,7 @@ std::variant<std::shared_ptr<const Greys>, std::string> read_png_greys(const std
   const png_color white{255, 255, 255};
   if (png_image_finish_read(&picture, &white, greys->levels.data(), 0, nullptr) == 0)
     return fmt::format("{}: {}", file, picture.message);
-  return greys;
+  return Picture{std::move(greys), sha256(bytes)};
 }
 
 }  // namespace vitrum::scene

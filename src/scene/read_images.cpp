@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <map>
 
 #include "scene/checks.hpp"
@@ -24,17 +26,22 @@ class Pictures {
  private:
   void read(const TableView& table, Image& image) {
     auto& picture = pictures_[image.file];
-    if (!picture) {
+    if (!picture.greys) {
       auto found = read_png_greys(table.formulas().folder(), image.file);
       if (const auto* fault = std::get_if<std::string>(&found))
         return table.report(
             "file", "found " + schema::quoted_list({image.file}) + ", expected a PNG picture: " + *fault);
       picture = std::get<0>(std::move(found));
     }
-    image.greys = picture;
+    if (image.sha256.value_or(picture.sha256) != picture.sha256)
+      return table.report("sha256",
+                          fmt::format("found {} in place of that of '{}' ({}), expected the picture "
+                                      "that this scene was resolved with, or no such key",
+                                      schema::quoted_list({*image.sha256}), image.file, picture.sha256));
+    image.greys = picture.greys, image.sha256 = picture.sha256;
   }
 
-  std::map<std::string, std::shared_ptr<const Greys>> pictures_;
+  std::map<std::string, Picture> pictures_;
 };
 
 }  // namespace

@@ -49,9 +49,10 @@ struct Greys {
 /// The pixels of a picture whose grey level lies in an interval, as squares.
 struct Image {
   std::string file;
-  Vector2 corner{};              ///< lower left one of the picture
-  double width = 0.0;            ///< of the picture, m
-  std::array<double, 2> grey{};  ///< lowest and highest level, both included
+  std::optional<std::string> sha256;  ///< of the file
+  Vector2 corner{};                   ///< lower left one of the picture
+  double width = 0.0;                 ///< of the picture, m
+  std::array<double, 2> grey{};       ///< lowest and highest level, both included
   std::shared_ptr<const Greys> greys;
 
   std::int64_t columns() const { return greys->columns; }
@@ -183,7 +184,8 @@ struct ContactDefinition {
 /// A validated scene. Everything is SI; every default is filled in.
 struct Scene {
   std::string title;
-  schema::NamedNumbers parameters;  ///< of formulas
+  schema::NamedNumbers parameters;                    ///< of formulas
+  std::optional<std::vector<std::string>> evaluated;  ///< those of formulas that are numbers by now
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
   mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;
@@ -199,13 +201,13 @@ struct Scene {
   ContactDefinition contact;
   std::vector<ProbeDefinition> probes;
   std::vector<TractionDefinition> tractions;
-  Vector2 gravity{0.0, 0.0};                    ///< m/s^2
-  std::vector<MaterialParameters> materials;    ///< in the order of the file
-  std::string verbatim;                         ///< the file's text, unchanged
-  std::vector<std::string> overrides;           ///< the --set arguments, in order
-  std::map<std::string, std::string> formulas;  ///< that keys had in place of numbers, by dotted path
-  schema::Functions functions;                  ///< where they stand, the number itself is 0
-  std::vector<std::string> warnings;            ///< what reading found implausible, in the order of the file
+  Vector2 gravity{0.0, 0.0};                  ///< m/s^2
+  std::vector<MaterialParameters> materials;  ///< in the order of the file
+  std::string verbatim;                       ///< the file's text, unchanged
+  std::vector<std::string> overrides;         ///< the --set arguments, in order
+  schema::PlacedTexts formulas;               ///< and names of files that keys had in place of numbers
+  schema::Functions functions;                ///< where they stand, the number itself is 0
+  std::vector<std::string> warnings;          ///< what reading found implausible, in the order of the file
   /// Where each key stands, by dotted path: "FILE:LINE:COLUMN" or "--set N".
   std::map<std::string, std::string> places;
 
@@ -228,8 +230,9 @@ struct StateDefinition {
 
 /// A validated point file (`vitrum point`).
 struct PointScene {
-  schema::NamedNumbers parameters;              ///< of formulas
-  std::map<std::string, std::string> formulas;  ///< as a scene's
+  schema::NamedNumbers parameters;                    ///< of formulas
+  std::optional<std::vector<std::string>> evaluated;  ///< as a scene's
+  schema::PlacedTexts formulas;                       ///< as a scene's
   MaterialParameters material;
   ConstitutiveDefinition constitutive;
   std::optional<StateDefinition> given;  ///< by [state]; `state` follows from it

@@ -9,7 +9,7 @@
 
 namespace vitrum::scene {
 
-constexpr std::size_t longest_quoted_text = 60;
+constexpr std::size_t longest_quoted_text = 64;  // a SHA-256
 
 std::string found_text(const toml::node& node) {
   if (const auto* text = node.as_string()) {

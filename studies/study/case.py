@@ -3,6 +3,7 @@ import functools
 import hashlib
 import os
 import subprocess
+import tomllib
 from dataclasses import dataclass, field
 
 from vitrum.program import overrides, program, studies
@@ -12,12 +13,13 @@ root = studies.parent
 
 @dataclass(frozen=True)
 class Case:
-    """`name` is its folder, `scene` a file below studies/, `settings` are scene keys by dotted path."""
+    """`name` is its folder, `scene` a file below studies/, `settings` are scene keys by dotted path, `told` the study file that says them, if one does."""
     name: str
     scene: str
     settings: dict = field(default_factory=dict)
     fields: bool = True
     longest: float = 600.0  # s: a run that takes longer is stopped, and counts as such
+    told: str = field(default="", compare=False)
 
     def overrides(self):
         return overrides(self.settings)
@@ -43,6 +45,34 @@ def as_typed(case):
 def digest(path):
     """SHA-256 of a file: results of another program or scene are made anew."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def inputs(scene, settings):
+    """File -> SHA-256 (None: there is none) of the scene, and of all tables and pictures that it or settings of cases name: {csv = "FILE"}, {file = "FILE"}."""
+    scene = studies / scene
+    names = {scene.name, *_named_by(scene), *(name for each in settings for name in _named(each))}
+    return {name: digest(scene.parent / name) if (scene.parent / name).is_file() else None for name in sorted(names)}
+
+
+@functools.cache
+def _named_by(scene):
+    try:
+        return [*_named(tomllib.loads(scene.read_text(encoding="utf-8")))]
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError):
+        return []  # the program says so, with the place
+
+
+def _named(value):
+    """The names of files in a table; its keys may be dotted paths."""
+    if isinstance(value, dict):
+        for key, item in value.items():
+            if key.rpartition(".")[2] in ("csv", "file") and isinstance(item, str):
+                yield item
+            else:
+                yield from _named(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _named(item)
 
 
 def check(case):

@@ -6,13 +6,14 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from study.case import check
+from study.file import explained
 from study.outcome import StudyError
 from study.page import PageError, assemble, check_pictures, fill, publish, write_blocks
 
 
 def _check(cases):
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        faults = [fault for fault in pool.map(check, cases) if fault]
+        faults = [explained(case, fault) for case, fault in zip(cases, pool.map(check, cases)) if fault]
     for fault in faults:
         print(fault, file=sys.stderr)
     print(f"{len(cases)} scenes checked, {len(faults)} invalid")

@@ -172,9 +172,24 @@ def read(path, quick=False):
 
 def placed(reader, error):
     """The program's refusal of a setting, with the place in the study file before it; of what the scene itself says, as it is."""
-    key = next((key for key in re.findall(r"--set ([\w.]+)=", str(error))), None)
-    where = next((where for where, settings in _settings(reader.table) if key in settings), None)
-    return error if where is None else StudyFileError(f"{reader.fault(where + key, 'the program refuses it:')} {error}")
+    where = _place_of(reader.table, re.findall(r"--set ([\w.]+)=", str(error)))
+    return error if where is None else StudyFileError(f"{reader.fault(where, 'the program refuses it:')} {error}")
+
+
+def _place_of(table, keys):
+    """The first of some keys that the file sets, in the words of `fault`."""
+    return next((where + key for key in keys for where, settings in _settings(table) if key in settings), None)
+
+
+def explained(case, fault):
+    """What the program says of a case, with the place in the study file: of the setting that it refuses, or of one that varies, where it names none."""
+    if not case.told:
+        return fault
+    reader = _Reader(pathlib.Path(case.told))
+    varied = [key for key in reader.table.get("vary", {}) if key in case.settings]
+    where = _place_of(reader.table, re.findall(r"--set ([\w.]+)=", fault)) or (f"vary|{varied[0]}" if varied else None)
+    point = f" at {', '.join(f'{key} = {json.dumps(case.settings[key])}' for key in varied)}" if varied else ""
+    return str(reader.fault(where, f"the program refuses the scene{point}:") if where else f"{case.told}: the program refuses the scene:") + " " + fault
 
 
 def grid(vary):

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from vitrum.results import load
 
-from study.case import digest, program, run_command, studies
+from study.case import digest, inputs, program, run_command
 
 # Exit statuses: done, and computation failed (instability, tolerance not reachable), which is a result too.
 results = (0, 3)
@@ -74,7 +74,7 @@ def _write_whole(path, record):
 
 def _stamp(case):
     """What must be the same for a run to be kept; wherever the study's folder stands."""
-    return {"command": run_command(case, case.name), "program": digest(program()), "scene": digest(studies / case.scene)}
+    return {"command": run_command(case, case.name), "program": digest(program()), "inputs": inputs(case.scene, [case.settings])}
 
 
 def kept(case, runs):

@@ -8,7 +8,7 @@ import sys
 from vitrum.errors import Error
 from vitrum.program import overrides, studies
 
-from study.case import Case
+from study.case import Case, inputs
 from study.file import bars, grid, read
 from study.outcome import StudyError
 from study.proposals import default_methods, default_references, finer_in_time, perturbed, refinements
@@ -89,7 +89,7 @@ def make(path, quick):
     return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if study.vary else [],
             "varied": list(study.vary), "sweep_bars": study.sweep_bars, "repeats": study.repeats, "converged": study.converged, "members": study.members, "longest": study.longest,
             "titles": {method.name: method.title for method in study.methods}, "quantities": [vars(each) for each in study.quantities] if study.quantities else None,
-            "resolved": study.resolved, "cases": cases}
+            "resolved": study.resolved, "inputs": inputs(study.scene, [case["settings"] for case in cases.values()]), "cases": cases}
 
 
 def _job(words, name):
@@ -154,7 +154,7 @@ def case(plan, name):
     """What computes a case: its own run, or the one that it shares."""
     run = plan["cases"][name]["run"]
     settings = plan["cases"][run]["settings"]
-    return Case("/".join(filter(None, (plan["key"], run))), plan["scene"], {**lean, **settings}, longest=plan["longest"])
+    return Case("/".join(filter(None, (plan["key"], run))), plan["scene"], {**lean, **settings}, longest=plan["longest"], told=plan["file"])
 
 
 def jobs(plan):

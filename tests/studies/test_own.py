@@ -95,6 +95,38 @@ sweep_bars = ["time"]
         assert_page_works(self, out / "report.html", ["Error bars", "What an accuracy costs", "Sweep"])
 
 
+class Swapped(Folder):
+    def test_a_run_is_made_anew_when_a_file_that_its_scene_names_has_changed(self):
+        """Of two points only the one whose table is another."""
+        (self.folder / "scene.toml").write_text(blocks.read_text())
+        for name in ("a", "b"):
+            (self.folder / f"{name}.csv").write_text("0,-1e6\n1,-1e6\n")
+        path = self.write("""
+scene = "scene.toml"
+set = {"time.end" = 4e-7, "body.1.velocity" = [0.0, 0.0]}
+[vary]
+"gravity.acceleration" = [[0.0, {csv = "a.csv"}], [0.0, {csv = "b.csv"}]]
+[[quantity]]
+name = "momentum"
+from = "bodies.target.momentum.1"
+[report]
+kinds = ["sweep"]
+""")
+
+        def made():
+            self.command(path)
+            return [((self.folder / f"out/runs/point-{n}/outcome.json").stat().st_mtime_ns, self.table("sweep")[n]["momentum"]) for n in range(2)]
+
+        first = made()
+        self.assertLess(first[0][1], 0.0)
+        self.assertEqual(first[1][1], first[0][1])
+        self.assertEqual(made(), first)
+        (self.folder / "b.csv").write_text("0,-2e6\n1,-2e6\n")
+        again = made()
+        self.assertEqual(again[0], first[0])
+        self.assertAlmostEqual(again[1][1] / first[1][1], 2.0, delta=1e-3)
+
+
 class Failing(Folder):
     def test_runs_that_fail_are_results(self):
         """Beyond the critical step the scene as it is fails, and what is made of it; a reference too."""

@@ -11,9 +11,9 @@
 #include "output/atomic_file.hpp"
 #include "output/checkpoint_header.hpp"
 #include "output/hdf5.hpp"
-#include "output/sha256.hpp"
 #include "sample_bodies.hpp"
 #include "scene/input_error.hpp"
+#include "scene/sha256.hpp"
 #include "temporary_directory.hpp"
 #include "tests/catch.hpp"
 

@@ -1,4 +1,4 @@
-#include "output/sha256.hpp"
+#include "scene/sha256.hpp"
 
 #include <fstream>
 
@@ -7,7 +7,6 @@
 #include "tests/catch.hpp"
 
 using namespace vitrum;
-using namespace vitrum::output;
 
 TEST_CASE("SHA-256 agrees with the published examples", "[output]") {
   CHECK(sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -293,6 +293,16 @@ TEST_CASE("a picture's pixels are a body, to the last of them", "[scene]") {
   CHECK(image("paving.png", "[2, 1]").find("the lowest level") != std::string::npos);
   std::ofstream(folder.file("text.png")) << "no picture";
   CHECK(image("text.png", "[0, 1]").find("Not a PNG file") != std::string::npos);
+  CHECK(image("other.png", "[0, 1]").find("found no such file, expected a PNG picture") != std::string::npos);
+  // A resolved scene is one of this picture.
+  const std::string resolved = resolved_toml(
+      read("image = {file = \"paving.png\", width = 1.0, grey = [0, 1]}", folder.file("scene.toml")));
+  CHECK(parse_scene(resolved, folder.file("scene.toml")).bodies[0].shape.index() == 4);
+  levels[0] = static_cast<unsigned char>(levels[0] ^ 1);
+  write_png(folder.file("paving.png"), columns, rows, levels);
+  CHECK_THROWS_WITH(
+      parse_scene(resolved, folder.file("scene.toml")),
+      Catch::Contains("body.0.image.sha256': found ") && Catch::Contains("expected the picture that"));
 }
 
 TEST_CASE("a polygon is read from a file, and needs three corners", "[scene]") {

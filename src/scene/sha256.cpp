@@ -1,4 +1,4 @@
-#include "output/sha256.hpp"
+#include "scene/sha256.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -13,7 +13,7 @@
 
 #include "scene/input_error.hpp"
 
-namespace vitrum::output {
+namespace vitrum {
 namespace {
 
 class Digest {
@@ -60,4 +60,4 @@ std::string sha256_of_file(const std::filesystem::path& path, std::uint64_t offs
   return digest.hexadecimal();
 }
 
-}  // namespace vitrum::output
+}  // namespace vitrum
