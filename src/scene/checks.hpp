@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/scene.hpp"
 #include "scene/table_view.hpp"
@@ -8,6 +10,12 @@
 /// What rows cannot say: how keys of a document that has been read must go together. Each check reports its
 /// faults to the diagnostics, and looks at nothing that has been reported before.
 namespace vitrum::scene {
+
+/// The parameters whose formulas are numbers now: those that the document says, and those of its own. Reports
+/// what --set gives to a parameter that no formula asks for any more, or ever did.
+std::optional<std::vector<std::string>> check_parameters(
+    const TableView& document, const schema::NamedNumbers& parameters,
+    const std::optional<std::vector<std::string>>& evaluated);
 
 void check_methods(const TableView& document, const Scene& scene);
 void check_materials(const TableView& document, const std::vector<MaterialParameters>& materials);

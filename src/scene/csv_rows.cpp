@@ -40,18 +40,18 @@ bool resembles_number(std::string_view text) {
 
 }  // namespace
 
-std::variant<std::vector<std::array<double, 2>>, std::string> read_csv_rows(
-    const std::filesystem::path& folder, const std::string& name) {
+std::variant<std::vector<CsvRow>, std::string> read_csv_rows(const std::filesystem::path& folder,
+                                                             const std::string& name) {
   const std::string file = (folder / name).string();
   std::string text;
   try {
-    text = read_input(file).text;
+    text = read_file(file, "a CSV file");
   } catch (const std::runtime_error& error) {
     return std::string(error.what());
   }
   if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
     text.erase(0, byte_order_mark.size());
-  std::vector<std::array<double, 2>> rows;
+  std::vector<CsvRow> rows;
   bool first = true;
   int number = 0;
   for (std::string_view rest = text; !rest.empty();) {
@@ -66,7 +66,7 @@ std::variant<std::vector<std::array<double, 2>>, std::string> read_csv_rows(
                                                                      : line.substr(comma + 1);
     const auto a = number_of(left), b = number_of(right);
     if (a && b)
-      rows.push_back({*a, *b});
+      rows.push_back({number, {*a, *b}});
     else if (!first || resembles_number(left) || resembles_number(right))
       return fmt::format("{}:{}: found {}, expected two numbers and a comma between", file, number,
                          toml_quoted(line.substr(0, 60)));

@@ -46,6 +46,8 @@ class Diagnostics {
   void warn(const std::string& origin, const toml::source_position& where, std::string_view key,
             std::string_view fact);
 
+  /// Whether the value at `path` comes from a --set.
+  bool overridden(std::string_view path) const { return override_at(path) != 0; }
   /// Whether there are no faults so far.
   bool empty() const { return faults_.empty(); }
   /// Whether no fault of the key at `path`, nor of one below it, has been added.

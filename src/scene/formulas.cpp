@@ -46,6 +46,17 @@ bool is_formula(std::string_view text) {
   return text.starts_with('=');
 }
 
+std::set<std::string, std::less<>> names_in(std::string_view formula) {
+  const auto is_part = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::set<std::string, std::less<>> names;
+  for (auto c = formula.begin(); c != formula.end();) {
+    const auto begin = std::find_if(c, formula.end(), is_part);
+    c = std::find_if_not(begin, formula.end(), is_part);
+    names.emplace(begin, c);  // and numbers, which are no names
+  }
+  return names;
+}
+
 std::string Formulas::define(const std::string& name, double value) {
   if (!is_word(name)) return "expected a name of letters, digits and _";
   if (std::ranges::find(constants, std::string_view(name),
@@ -81,6 +92,9 @@ std::string fault_text(const mu::Parser::exception_type& error, const Formulas& 
   if (!is_word(token) || std::ranges::find(names, token) != names.end()) return error.GetMsg();
   if (std::ranges::find(variables, token) != variables.end())
     return fmt::format("'{}' means nothing at this key", token);
+  if (std::ranges::find(formulas.announced(), token) != formulas.announced().end())
+    return fmt::format("parameter '{}' has no value here: it takes one that stands above and is sound",
+                       token);
   return with_suggestion(fmt::format("'{}' is no parameter, unit or function", token), token, names);
 }
 

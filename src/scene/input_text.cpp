@@ -17,17 +17,17 @@ namespace {
 /// Bytes. Also what ends the reading of devices that never end.
 constexpr std::size_t largest_file = std::size_t{16} << 20;
 
-void require_file(const std::string& name) {
+void require_file(const std::string& name, std::string_view expected) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(name, error);
   // A name that leads nowhere is the user's mistake; everything else that goes wrong is the file system's.
   if (status.type() == std::filesystem::file_type::not_found)
-    throw InputError(fmt::format("{}: found no such file, expected a TOML file", name));
+    throw InputError(fmt::format("{}: found no such file, expected {}", name, expected));
   if (std::filesystem::is_directory(status))
-    throw InputError(fmt::format("{}: found a directory, expected a TOML file", name));
+    throw InputError(fmt::format("{}: found a directory, expected {}", name, expected));
 }
 
-std::string read_all(std::istream& stream, const std::string& name) {
+std::string read_all(std::istream& stream, const std::string& name, std::string_view expected) {
   std::string text;
   std::array<char, 16384> piece{};
   do {
@@ -35,21 +35,27 @@ std::string read_all(std::istream& stream, const std::string& name) {
     text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
   } while (stream && text.size() <= largest_file);
   if (text.size() > largest_file)
-    throw InputError(fmt::format("{}: found more than {} MB, expected a scene", name, largest_file >> 20));
+    throw InputError(
+        fmt::format("{}: found more than {} MB, expected {}", name, largest_file >> 20, expected));
   return text;
 }
 
 }  // namespace
 
 InputText read_input(const std::string& file) {
-  if (file == "-") return {"<stdin>", read_all(std::cin, "<stdin>")};
-  require_file(file);
+  constexpr std::string_view expected = "a TOML file";
+  if (file == "-") return {"<stdin>", read_all(std::cin, "<stdin>", expected)};
+  return {file, read_file(file, expected)};
+}
+
+std::string read_file(const std::string& file, std::string_view expected) {
+  require_file(file, expected);
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  std::string text = read_all(stream, file);
+  std::string text = read_all(stream, file, expected);
   if (!stream.is_open() || stream.bad())
     throw FileError(fmt::format("{}: cannot be read: {}", file, std::generic_category().message(errno)));
-  return {file, std::move(text)};
+  return text;
 }
 
 }  // namespace vitrum

@@ -73,6 +73,7 @@ Scene parse_scene(std::string_view text, std::string_view name, const std::vecto
   scene::read_table(document, &scene);
   scene.formulas = formulas.used();
   scene.functions = formulas.functions();
+  scene.evaluated = scene::check_parameters(document, scene.parameters, scene.evaluated);
   scene::check_methods(document, scene);
   scene::check_materials(document, scene.materials);
   scene::read_images(document, scene);
@@ -95,6 +96,7 @@ PointScene parse_point(std::string_view text, std::string_view name,
   const scene::TableView document(table, "", scene::point_table(), diagnostics, formulas);
   PointScene point;
   scene::read_table(document, &point);
+  point.evaluated = scene::check_parameters(document, point.parameters, point.evaluated);
   if (const std::size_t found = document.tables("material").size(); found > 1)
     document.report("material", fmt::format("found {} materials, expected one", found));
   else if (found == 1)

@@ -71,6 +71,7 @@ class ValueReader {
   std::optional<Value> number(const toml::node& node, const std::string& path, std::string_view what) const {
     if (node.is_string() && is_formula(node.as_string()->get())) return formula(node, path, what);
     if (node.is_table() && key_.over_time) return time_table(*node.as_table(), path);
+    if (node.is_string()) return wrong(node, path, fmt::format("{}; a formula begins with '='", what));
     if (!node.is_number()) return wrong(node, path, what);
     const double found =
         node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
@@ -104,53 +105,82 @@ class ValueReader {
     const toml::node *list = node.get("table"), *file = node.get("csv");
     if (node.size() != 1 || (list == nullptr && (file == nullptr || !file->is_string())))
       return wrong(node, path, forms);
+    const std::string name = join_path(path, list != nullptr ? "table" : "csv");
+    const auto rows = list != nullptr ? rows_in_scene(*list, name)
+                                      : rows_in_file(*file, name, "a CSV file of rows t,value");
+    if (!rows) return std::nullopt;
+    if (rows->size() < 2)
+      return wrong(list != nullptr ? *list : *file, name, "two or more rows [t, value] by rising time");
     schema::Function function;
-    if (list != nullptr) {
-      if (!list->is_array()) return wrong(*list, join_path(path, "table"), "rows [t, value]");
-      Key constants = key_;
-      constants.over_time = constants.over_place = false, constants.bounds = intervals::finite;
-      const std::optional<Value> rows =
-          ValueReader(table_, constants).rows(*list->as_array(), 2, join_path(path, "table"));
-      if (!rows) return std::nullopt;
-      for (const Numbers& row : std::get<std::vector<Numbers>>(*rows))
-        function.table.push_back({row[0], row[1]});
-    } else {
-      const std::string& name = file->as_string()->get();
-      auto rows = read_csv_rows(table_.formulas().folder(), name);
-      if (const auto* fault = std::get_if<std::string>(&rows))
-        return wrong(*file, join_path(path, "csv"), "a file of rows t,value: " + *fault);
-      function.table = std::get<0>(std::move(rows));
-      table_.formulas().note(path, name);
+    for (const Row& row : *rows) {
+      if (!key_.bounds.contain(row.values[1]))
+        return wrong(row, number_text(row.values[1]), expected_component(key_) + " in each row");
+      if (const auto& before = function.table; !before.empty() && !(row.values[0] > before.back()[0]))
+        return wrong(
+            row, fmt::format("{} s after {} s", number_text(row.values[0]), number_text(before.back()[0])),
+            "rows [t, value] by rising time");
+      function.table.push_back(row.values);
     }
-    const toml::node& at = list != nullptr ? *list : *file;
-    bool rises = function.table.size() >= 2, within = true;
-    for (std::size_t i = 0; i < function.table.size(); ++i) {
-      rises = rises && (i == 0 || function.table[i][0] > function.table[i - 1][0]);
-      within = within && key_.bounds.contain(function.table[i][1]);
-    }
-    if (!rises) return wrong(at, path, "two or more rows [t, value] by rising time");
-    if (!within) return wrong(at, path, expected_component(key_) + " in each row");
+    if (list == nullptr) table_.formulas().note(path, file->as_string()->get());
     table_.formulas().note(path, std::move(function));
     return 0.0;
   }
 
+  /// A row of two numbers, and where it stands: `in` is the line of a file that the node names, or nothing.
+  struct Row {
+    const toml::node& node;
+    std::string path, in;
+    std::array<double, 2> values;
+  };
+  std::nullopt_t wrong(const Row& row, std::string_view found, std::string_view what) const {
+    table_.diagnostics().add(row.path, row.node.source().begin, row.path,
+                             fmt::format("found {}{}, expected {}", found, row.in, what));
+    return std::nullopt;
+  }
+
+  std::optional<std::vector<Row>> rows_in_scene(const toml::node& list, const std::string& path) const {
+    if (!list.is_array()) return wrong(list, path, "rows [t, value]");
+    Key constants = key_;
+    constants.over_time = constants.over_place = false, constants.bounds = intervals::finite;
+    const std::optional<Value> read = ValueReader(table_, constants).rows(*list.as_array(), 2, path);
+    if (!read) return std::nullopt;
+    std::vector<Row> rows;
+    for (const Numbers& row : std::get<std::vector<Numbers>>(*read))
+      rows.push_back({list.as_array()->at(rows.size()), join_path(path, rows.size()), "", {row[0], row[1]}});
+    return rows;
+  }
+
+  std::optional<std::vector<Row>> rows_in_file(const toml::node& file, const std::string& path,
+                                               std::string_view what) const {
+    const std::string& name = file.as_string()->get();
+    const auto found = read_csv_rows(table_.formulas().folder(), name);
+    if (const auto* fault = std::get_if<std::string>(&found))
+      return wrong(file, path, fmt::format("{}: {}", what, *fault));
+    std::vector<Row> rows;
+    for (const CsvRow& row : std::get<0>(found))
+      rows.push_back({file, path, fmt::format(" ({}:{})", name, row.line), row.values});
+    return rows;
+  }
+
   /// {csv = "FILE"} in place of rows of two numbers.
   std::optional<Value> rows_of_file(const toml::table& node) const {
+    constexpr std::string_view what = "a CSV file of rows of two numbers";
     const toml::node* file = node.get("csv");
     if (node.size() != 1 || file == nullptr || !file->is_string()) return wrong();
-    const auto found = read_csv_rows(table_.formulas().folder(), file->as_string()->get());
-    if (const auto* fault = std::get_if<std::string>(&found))
-      return wrong(*file, join_path(path_, "csv"), "a file of rows of two numbers: " + *fault);
+    const auto found = rows_in_file(*file, join_path(path_, "csv"), what);
+    if (!found) return std::nullopt;
     std::vector<Numbers> rows;
-    for (const auto& row : std::get<0>(found)) rows.push_back({row.begin(), row.end()});
+    for (const Row& row : *found) rows.push_back({row.values.begin(), row.values.end()});
     table_.formulas().note(path_, file->as_string()->get());
-    return rows.empty() ? std::optional<Value>(wrong(*file, path_, "a file of rows of two numbers")) : rows;
+    return rows.empty() ? std::optional<Value>(wrong(*file, join_path(path_, "csv"), what)) : rows;
   }
 
   std::optional<Value> named_numbers(const toml::node& node) const {
     if (!node.is_table()) return wrong();
     schema::NamedNumbers numbers;
-    for (const std::string& name : names_in_order(*node.as_table())) {
+    const std::vector<std::string> names = names_in_order(*node.as_table());
+    table_.formulas().announce(names);
+    for (const std::string& name : names) {
       const toml::node& item = *node.as_table()->get(name);
       const std::string path = join_path(path_, name);
       const std::optional<Value> value = number(item, path, expected_component(key_));

@@ -40,6 +40,9 @@ Table make_scene_table(Geometry geometry) {
       {{"title", &Scene::title, "shown in summaries and pictures"},
        {"parameters", &Scene::parameters, "1", intervals::finite,
         "numbers by name, for formulas: wherever a number stands, a text that begins with `=` is one"},
+       {"evaluated", &Scene::evaluated,
+        "of a resolved scene: parameters whose formulas have become numbers, so that `--set` cannot change "
+        "them"},
        {"space", space_table(), "geometry and grid", required},
        {"time", time_table(), "time span", required},
        {"integrator", &Scene::integrator, integrator_table(), "the grid momentum equations", required},
@@ -116,8 +119,8 @@ const Table& space_table() {
         "collect: bodies that turn are not strained"},
        {"filter", &Scene::filter, filters,
         "`pressures`: what particles of a cell store against each other, and nodes do not see, is removed "
-         "and booked as `filtered`; for more than one particle a cell"},
-        transfer_row()});
+        "and booked as `filtered`; for more than one particle a cell"},
+       transfer_row()});
   return table;
 }
 

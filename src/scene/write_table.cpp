@@ -59,14 +59,13 @@ std::string varying_text(const schema::Value& value, const std::string& path,
   return '[' + text + ']';
 }
 
-using Texts = std::map<std::string, std::string>;
-
-/// The formulas at and below `path`, as a comment.
-std::string comment(const std::string& path, const Texts& formulas) {
+/// The formulas at and below `path`, as a comment. They stand in the order of their values: both are that of
+/// the tables' rows.
+std::string comment(const std::string& path, const schema::PlacedTexts& formulas) {
   std::string text;
-  for (auto f = formulas.lower_bound(path); f != formulas.end() && f->first.starts_with(path); ++f)
-    if (f->first.size() == path.size() || f->first[path.size()] == '.')
-      text += (text.empty() ? "  # " : ", ") + single_line(f->second);
+  for (const auto& [key, formula] : formulas)
+    if (key.starts_with(path) && (key.size() == path.size() || key[path.size()] == '.'))
+      text += (text.empty() ? "  # " : ", ") + single_line(formula);
   return text;
 }
 
@@ -103,7 +102,7 @@ std::vector<std::pair<std::string, std::string>> assignments(const Table& table,
 /// Writes a document part by part.
 class Writer {
  public:
-  Writer(const Texts& formulas, const schema::Functions& functions)
+  Writer(const schema::PlacedTexts& formulas, const schema::Functions& functions)
       : formulas_(formulas), functions_(functions) {}
 
   /// The keys of a table that stands at `place`; in headers its name is `path`, without the indices of lists.
@@ -132,7 +131,7 @@ class Writer {
     }
   }
 
-  const Texts& formulas_;
+  const schema::PlacedTexts& formulas_;
   const schema::Functions& functions_;
   std::string text_;
 };
@@ -143,8 +142,7 @@ std::string value_text(const schema::Value& value) {
   return std::visit([](const auto& v) { return text_of(v); }, value);
 }
 
-std::string table_text(const Table& table, const void* owner,
-                       const std::map<std::string, std::string>& formulas,
+std::string table_text(const Table& table, const void* owner, const schema::PlacedTexts& formulas,
                        const schema::Functions& functions) {
   Writer writer(formulas, functions);
   writer.write(table, owner, "", "");

@@ -14,7 +14,6 @@ std::string value_text(const schema::Value& value);
 /// `formulas`, by the path of their key, stand behind their values as comments; `functions` in place of
 /// theirs.
 std::string table_text(const schema::Table& table, const void* owner,
-                       const std::map<std::string, std::string>& formulas = {},
-                       const schema::Functions& functions = {});
+                       const schema::PlacedTexts& formulas = {}, const schema::Functions& functions = {});
 
 }  // namespace vitrum::scene

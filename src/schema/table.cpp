@@ -50,8 +50,8 @@ std::string text_text(const Key& key) {
 }
 
 std::string texts_text(const Key& key) {
-  return "a list of " +
-         (key.choices.empty() ? fmt::format("{} strings", key.shape.length) : quoted_list(key.choices));
+  if (!key.choices.empty()) return "a list of " + quoted_list(key.choices);
+  return key.shape.length > 0 ? fmt::format("a list of {} strings", key.shape.length) : "a list of strings";
 }
 
 /// "a table {centre = [..], radius = ..}", "a table [space]".

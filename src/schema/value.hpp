@@ -17,6 +17,8 @@ namespace vitrum::schema {
 using Numbers = std::vector<double>;
 /// Numbers by names that the file gives them, in its order.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
+/// Texts by the dotted path of their key or item, in the order in which these are read.
+using PlacedTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// What stands in place of a number that may vary.
 struct Function {

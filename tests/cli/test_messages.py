@@ -79,6 +79,14 @@ class Excerpt(CommandLineTest):
         self.assertEqual(self.vitrum("point", "-", input=point).stdout, self.vitrum("point", glass_point).stdout)
         self.assertRegex(self.refused("check", "-")[0], r"^error: <stdin>:\d+:\d+: key 'space': found nothing")
 
+    def test_what_a_formula_lacks(self):
+        """Parameters that stand below, or are wrong themselves, are not unknown; and what looks like a formula is told how one begins."""
+        parameters = self.scene("[parameters]\na = '=b'\nb = inf\n" + text)
+        lines = self.refused("check", parameters, "--set", "time.end='=a'", "--set", "time.start='2*us'")
+        self.assertRegex("\n".join(lines), r"key 'parameters\.a': found \"=b\", expected a formula: parameter 'b' has no value here")
+        self.assertRegex("\n".join(lines), r"key 'time\.end': found \"=a\", expected a formula: parameter 'a' has no value here")
+        self.assertRegex("\n".join(lines), r"key 'time\.start': found \"2\*us\", expected a finite number \(s\); a formula begins with '='")
+
     def test_a_run_wants_a_file(self):
         """It reads its scene again when it is resumed."""
         answer = self.vitrum("run", "-", input=text, status=2)

@@ -57,6 +57,48 @@ TEST_CASE("the resolved scene keeps formula and value", "[scene]") {
   CHECK(resolved_toml(again) == text);
 }
 
+TEST_CASE("formulas in the comments of a resolved scene stand in the order of their values", "[scene]") {
+  std::string corners = "polygon=[";
+  for (int n = 0; n < 12; ++n)
+    corners += (n > 0 ? ", " : "") + std::string("[\"=") + std::to_string(n) + "*mm\", " +
+               std::to_string(n * n) + "]";
+  const std::string text =
+      resolved_toml(parse_scene(scene_of_parameters(), "s.toml",
+                                {"body.0.box=none", "body.0." + corners + "]",
+                                 "boundary.0.box={max=[\"=3*R\", 1], min=[\"=R\", \"=-2\"]}"}));
+  CHECK(text.find(
+            "  # =0*mm, =1*mm, =2*mm, =3*mm, =4*mm, =5*mm, =6*mm, =7*mm, =8*mm, =9*mm, =10*mm, =11*mm\n") !=
+        std::string::npos);
+  CHECK(text.find("box = {min = [0.2, -2.0], max = [0.6, 1.0]}  # =R, =-2, =3*R\n") != std::string::npos);
+}
+
+TEST_CASE("a parameter that no formula asks for is not set in vain", "[scene]") {
+  const auto told = [](std::string_view text, const std::string& setting) {
+    return faults([&] { parse_scene(text, "s.toml", {"title=\"x\"", setting}); });
+  };
+  const std::string scene = scene_of_parameters();
+  CHECK(told(scene, "parameters.R=0.3").empty());
+  CHECK_THAT(told(scene, "parameters.RR=0.3").at(0),
+             Catch::Equals("--set 2: key 'parameters.RR': found a parameter that no formula names, expected "
+                           "one of \"R\", \"H\"; did you mean 'R'?"));
+  CHECK_THAT(told(scene_text, "parameters.R=0.3").at(0),
+             Catch::EndsWith("expected a formula with it: \"=R\""));
+
+  // In a resolved scene formulas of numbers are numbers; those of time are as they were.
+  const Scene driven = parse_scene(
+      with(scene, "fix = [\"r\", \"z\"]", "fix = [\"r\", \"z\"]\nvelocity = [\"=-V*t\", \"=W*t/H\"]"),
+      "s.toml", {"parameters.V=2", "parameters.W=3"});
+  const std::string resolved = resolved_toml(driven);
+  CHECK(resolved.find("evaluated = [\"R\", \"H\"]\n") != std::string::npos);
+  CHECK(told(resolved, "parameters.V=3").empty());
+  for (const char* setting : {"parameters.R=0.3", "parameters.H=1", "parameters={R=1, H=2, V=3, W=4}"})
+    CHECK_THAT(told(resolved, setting).at(0),
+               Catch::StartsWith("--set 2: key 'parameters.") &&
+                   Catch::Contains("found it set in a resolved scene, where formulas with it are numbers by "
+                                   "now, expected it to be set in the scene that was resolved"));
+  CHECK(told(scene_text, "evaluated=[]").empty());
+}
+
 TEST_CASE("formulas that cannot be", "[scene]") {
   require_scene_faults({
       {"cell = 1.0e-3",

@@ -66,6 +66,37 @@ TEST_CASE("The first row of a file is a heading only if nothing in it was meant 
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("A table that does not rise is refused at the row that breaks the order", "[scene][loads]") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "vitrum_order_test";
+  std::filesystem::create_directories(folder);
+  const auto told = [&](const std::string& text) {
+    return faults([&] { parse_scene(scene_with(text), (folder / "s.toml").string()); }).at(0);
+  };
+  std::ofstream(folder / "load.csv") << "t,v\n# in order\n0,1\n2e-5,2\n\n1e-5,3\n";
+  CHECK_THAT(told("[0, {csv = \"load.csv\"}]"),
+             Catch::Contains("key 'boundary.0.velocity.1.csv': found 1e-05 s after 2e-05 s (load.csv:6), "
+                             "expected rows [t, value] by rising time"));
+  CHECK_THAT(told("[0, {table = [[0, 1], [2e-5, 2], [2e-5, 3]]}]"),
+             Catch::Contains("s.toml:24:") &&
+                 Catch::Contains("key 'boundary.0.velocity.1.table.2': found 2e-05 s after 2e-05 s"));
+  std::ofstream(folder / "load.csv") << "0,1\n";
+  CHECK_THAT(told("[0, {csv = \"load.csv\"}]"), Catch::Contains("two or more rows"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("A file that is not there is called what it should be", "[scene][loads]") {
+  const auto told = [&](const std::string& file) {
+    return faults([&] { parse_scene(scene_with("[0, {csv = \"" + file + "\"}]"), "s.toml"); }).at(0);
+  };
+  for (const char* file : {"none.csv", "-"}) {  // no standard input
+    CAPTURE(file);
+    CHECK_THAT(told(file), Catch::StartsWith("s.toml:24:") &&
+                               Catch::Contains("key 'boundary.0.velocity.1.csv': found ") &&
+                               Catch::Contains("found no such file, expected a CSV file"));
+  }
+  CHECK_THAT(told("."), Catch::Contains("found a directory, expected a CSV file"));
+}
+
 TEST_CASE("Tables are piecewise linear, from the scene or from a file beside it", "[scene][loads]") {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "vitrum_functions_test";
   std::filesystem::create_directories(folder);
