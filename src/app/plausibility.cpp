@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "integrators/grid/critical_step.hpp"
 #include "mpm/contact/contact.hpp"
@@ -77,6 +79,37 @@ void warn_of_one_row(const Scene& scene, Warnings& list) {
           "{}: body '{}' has one particle a cell: drawn by a third it tears, whatever domains its "
           "particles have; with 4 it does not at twice its length",
           scene.at("space.shape_functions"), body.name));
+}
+
+void warn_of_scatter(const Scene& scene, const System& system, Warnings& list) {
+  constexpr double most_spread = 100.0, most_size = 20.0;
+  for (const Body& body : system.bodies) {
+    const StrengthScatter* scatter = body.material->scatter();
+    if (scatter == nullptr || body.particles.size == 0) continue;
+    const std::string material = fmt::format("material.{}.", body.material->parameters().name);
+    const auto place = std::ranges::find_if(scene.places, [&](const auto& entry) {
+      return entry.first.starts_with(material) && entry.first.ends_with(".scatter");
+    });
+    const std::string where = scene.at(place != scene.places.end() ? place->first : material);
+    // Weibull's quantiles: (-ln(1 - P) volume / V)^(1 / modulus).
+    const double spread = std::pow(std::log(0.01) / std::log(0.99), 1.0 / scatter->modulus);
+    std::vector<double> masses(body.particles.mass.begin(), body.particles.mass.end());
+    const auto middle = masses.begin() + static_cast<std::ptrdiff_t>(masses.size() / 2);
+    std::ranges::nth_element(masses, middle);
+    const double volume =
+        *middle / body.material->density() * (system.axisymmetric ? 2.0 * std::numbers::pi : 1.0);
+    const double size = std::pow(std::numbers::ln2 * scatter->volume / volume, 1.0 / scatter->modulus);
+    if (spread > most_spread)
+      list.push_back(fmt::format(
+          "{}: with modulus = {:g} one particle in a hundred of body '{}' bears {:.3g} times what "
+          "another one in a hundred does; glass has moduli of 3 to 30",
+          where, scatter->modulus, body.name, spread));
+    else if (size > most_size || size < 1.0 / most_size)
+      list.push_back(fmt::format(
+          "{}: half of the particles of body '{}' bear {} than {:.3g} times the law's strength: that is of a "
+          "volume of {:.3g} m^3, and a particle has {:.3g} m^3",
+          where, body.name, size > 1.0 ? "more" : "less", size, scatter->volume, volume));
+  }
 }
 
 void warn_of_depth(const System& system, Warnings& list) {

@@ -16,6 +16,10 @@ void warn_of_travel(const Scene& scene, const System& system, Warnings& list);
 /// Domains that follow the stretch of a body with one particle a cell: such rows tear between cells.
 void warn_of_one_row(const Scene& scene, Warnings& list);
 
+/// Strengths that scatter over orders of magnitude, or whose law's value is that of a volume unlike
+/// particles'.
+void warn_of_scatter(const Scene& scene, const System& system, Warnings& list);
+
 /// What the end of a run with contact tells: surfaces that were pressed further than they bear.
 void warn_of_depth(const System& system, Warnings& list);
 

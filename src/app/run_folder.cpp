@@ -15,7 +15,9 @@ namespace {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  if (error)
+    throw FileError(fmt::format("{}: cannot be made: {}; --out names the folder for what a run leaves",
+                                folder.string(), error.message()));
 }
 
 void require_checkpoint(const std::filesystem::path& folder) {

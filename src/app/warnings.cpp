@@ -8,6 +8,8 @@
 
 #include "app/demands.hpp"
 #include "app/encounters.hpp"
+#include "app/idle_loads.hpp"
+#include "app/magnitudes.hpp"
 #include "app/material_warnings.hpp"
 #include "app/plausibility.hpp"
 #include "integrators/grid/grid_method.hpp"
@@ -36,8 +38,8 @@ void judge_probes(const Scene& scene, const System& system, Warnings& list) {
   }
 }
 
-void warn_of_duration(const Scene& scene, const System& system, int threads, Warnings& list) {
-  const Work work = work_of(scene, system, threads);
+void warn_of_duration(const Scene& scene, const System& system, const Work& work, int threads,
+                      Warnings& list) {
   if (work.seconds > long_run)
     list.push_back(fmt::format("{}: {}{:.3g} steps of {} particles take about {} on {} threads",
                                scene.at("time.end"), work.is_planned ? "" : "at least ", work.steps,
@@ -104,7 +106,9 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   std::ranges::move(boundary_warnings(scene), std::back_inserter(list));
   const CriticalStep critical = critical_step_of(scene.integrator, system);
   judge_probes(scene, system, list);
-  warn_of_duration(scene, system, threads, list);
+  const Work work = work_of(scene, system, threads);
+  warn_of_duration(scene, system, work, threads, list);
+  warn_of_magnitudes(scene, system, work, list);
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);
   warn_of_relaxation(scene, list);
@@ -114,6 +118,8 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_motion(scene, system, list);
   warn_of_travel(scene, system, list);
   warn_of_one_row(scene, list);
+  warn_of_scatter(scene, system, list);
+  warn_of_idle_loads(scene, system, list);
   warn_of_geometry(scene, system, list);
   for (std::string& line : list) line = scene::single_line(line);  // the name of a file may have several
   return list;

@@ -84,6 +84,14 @@ Pulse blast_pulse(double charge, double standoff) {
   return pulse;
 }
 
+std::optional<Pulse> pulse_of(const TractionDefinition& traction) {
+  if (const auto& f = traction.friedlander) return Pulse{f->pressure, f->duration, f->decay, f->arrival};
+  if (!traction.blast) return std::nullopt;
+  Pulse pulse = blast_pulse(traction.blast->charge, traction.blast->standoff);
+  pulse.arrival = traction.blast->arrival.value_or(pulse.arrival);
+  return pulse;
+}
+
 std::shared_ptr<const mpm::LoadFunction> pulse_function(const Pulse& pulse) {
   return std::make_shared<PulseFunction>(pulse);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mpm/load_function.hpp"
@@ -29,6 +30,9 @@ inline constexpr double least_scaled_distance = 0.2, largest_scaled_distance = 4
 Pulse blast_pulse(double charge, double standoff);
 /// The reflected impulse of the fits, Pa s.
 double reflected_impulse(double charge, double standoff);
+
+/// The pulse of a traction that is one.
+std::optional<Pulse> pulse_of(const TractionDefinition& traction);
 
 /// A pulse as a load.
 std::shared_ptr<const mpm::LoadFunction> pulse_function(const Pulse& pulse);

@@ -100,13 +100,7 @@ void build_tractions(const Scene& scene, System& system) {
     traction.follows = definition.follows;
     if (definition.pressure)
       traction.pressure = load_function(scene, path + ".pressure", *definition.pressure);
-    if (const auto& f = definition.friedlander)
-      traction.pressure = pulse_function({f->pressure, f->duration, f->decay, f->arrival});
-    if (const auto& blast = definition.blast) {
-      Pulse pulse = blast_pulse(blast->charge, blast->standoff);
-      pulse.arrival = blast->arrival.value_or(pulse.arrival);
-      traction.pressure = pulse_function(pulse);
-    }
+    if (const auto pulse = pulse_of(definition)) traction.pressure = pulse_function(*pulse);
     for (std::size_t c = 0; definition.vector && c < 2; ++c)
       traction.vector[c] =
           load_function(scene, fmt::format("{}.vector.{}", path, c), (*definition.vector)[c]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
 #include "scene/polygon_check.hpp"
+#include "scene/shape_measures.hpp"
 #include "scene/shapes.hpp"
 #include "scene/suggestion.hpp"
 #include "scene/surface_edges.hpp"
@@ -109,35 +111,82 @@ bool has_shape(const TableView& table, const Region& body) {
   return given == 1 && table.has(key) && table.sound(key) && table.sound("hole");
 }
 
-/// Whether what is cut out of a shape is cut out of it.
-void check_hole(const TableView& table, const TableView& hole_table, const Region& region,
-                const Region& hole) {
-  const Box box = bounds(hole);
-  const double size = std::min(box.max[0] - box.min[0], box.max[1] - box.min[1]);
-  if (!common_point(Region(region.shape), hole, 0.05 * size, 1e-6 * size))
-    hole_table.warn(shape_names[hole.shape.index()],
-                    fmt::format("found it outside '{}', expected it to cut something out",
-                                join_path(table.path(), shape_names[region.shape.index()])));
+/// m^2; NaN where edges of the region's shapes have too much in common.
+double area_of(const Region& region) {
+  try {
+    return measures(region, Geometry::plane_strain).area;
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
-void check_region(const TableView& table, const Region& region, bool axisymmetric) {
+/// Whether two areas are the same, to what edges are known by.
+bool same_area(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(a, b);
+}
+
+/// Parts of a region that change nothing. Of two that are the same the second is told.
+void judge_parts(const TableView& table, const Region& region, double whole) {
+  const std::vector<TableView> tables = table.tables("union");
+  Region rest = region;
+  for (std::size_t n = tables.size(); n-- > 0;) {
+    Region fewer = rest;
+    auto& parts = std::get<Union>(fewer.shape).parts;
+    if (parts.size() < 2) return;
+    const std::string_view key = shape_names[parts[n].shape.index()];
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(n));
+    if (!same_area(area_of(fewer), whole)) continue;
+    rest = fewer;
+    tables[n].warn(key,
+                   "found it adding nothing, expected something that neither the other parts have nor holes "
+                   "cut out");
+  }
+}
+
+/// Holes that cut nothing out, or what the grid does not know.
+void judge_holes(const TableView& table, const Region& region, double whole, double cell) {
+  const std::vector<TableView> tables = table.tables("hole");
+  if (tables.empty()) return;
+  const double uncut = area_of(Region(region.shape));
+  for (std::size_t n = 0; n < tables.size(); ++n) {
+    Region others = region, alone = region;
+    others.holes.erase(others.holes.begin() + static_cast<std::ptrdiff_t>(n));
+    alone.holes = {region.holes[n]};
+    const std::string_view key = shape_names[region.holes[n].shape.index()];
+    const Box box = bounds(region.holes[n]);
+    const double width = std::min(box.max[0] - box.min[0], box.max[1] - box.min[1]);
+    if (same_area(area_of(alone), uncut))
+      tables[n].warn(key, fmt::format("found it outside '{}', expected it to cut something out",
+                                      join_path(table.path(), shape_names[region.shape.index()])));
+    else if (same_area(area_of(others), whole))
+      tables[n].warn(key, "found it within other holes, expected it to cut something out");
+    else if (width < cell)
+      tables[n].warn(key,
+                     fmt::format("found it {:.3g} m wide, less than a cell ({:.3g} m): it takes mass away, "
+                                 "but what is beside it moves as if it were not there",
+                                 width, cell));
+  }
+}
+
+void check_region(const TableView& table, const Region& region, const Scene& scene) {
+  const bool axisymmetric = scene.geometry == Geometry::axisymmetric;
   if (!has_shape(table, region)) return;
   if (const auto* together = std::get_if<Union>(&region.shape)) {
     const std::vector<TableView> parts = table.tables("union");
-    for (std::size_t n = 0; n < parts.size(); ++n) check_region(parts[n], together->parts[n], axisymmetric);
+    for (std::size_t n = 0; n < parts.size(); ++n) check_region(parts[n], together->parts[n], scene);
   } else {
     check_shape(table, region.shape);
     if (axisymmetric) check_axis(table, region.shape);
   }
   if (table.schema().find("hole") == nullptr) return;
   const std::vector<TableView> holes = table.tables("hole");
-  for (std::size_t n = 0; n < holes.size(); ++n) {
+  for (std::size_t n = 0; n < holes.size(); ++n)
     if (has_shape(holes[n], region.holes[n])) check_shape(holes[n], region.holes[n].shape);
-    if (has_shape(table, region)) check_hole(table, holes[n], region, region.holes[n]);
-  }
   if (!is_composed(region) || !has_shape(table, region)) return;
   try {
-    edges_of(region, false);
+    const double whole = measures(region, Geometry::plane_strain).area;
+    if (std::holds_alternative<Union>(region.shape)) judge_parts(table, region, whole);
+    judge_holes(table, region, whole, scene.cell);
   } catch (const InputError& error) {
     table.report(shape_names[region.shape.index()], error.what());
   }
@@ -146,7 +195,7 @@ void check_region(const TableView& table, const Region& region, bool axisymmetri
 void check_body(const TableView& table, const BodyDefinition& body, const Scene& scene) {
   if (table.sound("name")) check_name(table, body.name);
   if (table.sound("material")) check_material(table, body, scene);
-  check_region(table, body, scene.geometry == Geometry::axisymmetric);
+  check_region(table, body, scene);
 }
 
 }  // namespace

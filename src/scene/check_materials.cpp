@@ -48,7 +48,10 @@ void warn_of_wave_speed(const TableView& material, const ElasticParameters& give
     if (const double c = speed(other); !meant.empty() || c < 1e3 || c > fastest) continue;
     meant = fmt::format("; {} = {:g}: did you mean {:g}e{}?", key, given.*member, given.*member, exponent);
   }
-  material.warn("young",
+  ElasticParameters compressible = given;
+  compressible.poisson = 0.25;
+  const bool by_poisson = found > fastest && speed(compressible) <= fastest;
+  material.warn(by_poisson ? "poisson" : "young",
                 fmt::format("waves travel at {:.4g} m/s in this material, expected {:g} to {:g} m/s{}", found,
                             slowest, fastest, meant));
 }
@@ -75,9 +78,30 @@ void check_law(const TableView& table, const MaterialParameters& material) {
     table.table(law.table)->fail(fault->key, fault->expected);
 }
 
+/// What a strength is that lies outside of what solids have, or could have with this modulus; MPa for Pa.
+void warn_of_strength(const TableView& table, std::string_view key, double found, double least, double most,
+                      std::string_view unit) {
+  if ((found >= least && found <= most) || found == 0.0) return;
+  const bool slip = 1e6 * found >= least && 1e6 * found <= most;
+  table.warn(key, fmt::format("found {:g} {}, expected {:.3g} to {:.3g}{}", found, unit, least, most,
+                              slip ? fmt::format("; did you mean {:g}e6?", found) : ""));
+}
+
+void warn_of_strengths(const TableView& table, const MaterialParameters& material) {
+  constexpr double softest = 1e-6, strongest = 0.2;  // of Young's modulus
+  const double least = softest * material.elastic.young, most = strongest * material.elastic.young;
+  if (material.damage)
+    warn_of_strength(*table.table("damage"), "toughness", material.damage->toughness, 1e4, 1e9, "Pa sqrt(m)");
+  if (material.von_mises)
+    warn_of_strength(*table.table("von_mises"), "yield", material.von_mises->yield, least, most, "Pa");
+  if (material.drucker_prager)
+    warn_of_strength(*table.table("drucker_prager"), "yield", material.drucker_prager->yield, least, most,
+                     "Pa");
+}
+
 void check_material(const TableView& table, const MaterialParameters& material) {
   if (table.sound("density") && table.sound("young") && table.sound("poisson"))
-    warn_of_wave_speed(table, material.elastic);
+    warn_of_wave_speed(table, material.elastic), warn_of_strengths(table, material);
   if (material.damage && table.sound("poisson") && !damage_admits(material.elastic.poisson))
     table.fail("poisson",
                "a number < 0.3926 in a material with damage (above, eqs. 5, 6 and 8 make the shear "

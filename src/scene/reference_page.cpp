@@ -30,7 +30,7 @@ Wherever a number stands, a text that begins with `=` is a formula: `max = ["=R"
 - `mm um us ns ms GPa MPa kPa`, `pi`, and `g` (9.80665 m/s^2: the fall on Earth, no gram; scenes weigh nothing in grams);
 - what [muParser](https://beltoforion.de/en/muparser/) knows: `+ - * / ^`, comparisons, `a ? b : c`, `sqrt`, `sin`, `exp`, `min`, ...
 
-Formulas are evaluated when the scene is read. The resolved scene has their values, and the formulas behind them as comments. A result within rounding of a decimal of twelve digits is that decimal: `=20*us` is 2e-5.
+Formulas are evaluated when the scene is read. The resolved scene has their values, and the formulas behind them as comments, in the order of the values. A result within rounding of a decimal of twelve digits is that decimal: `=20*us` is 2e-5.
 
 **Functions of time**: where a row admits them formulas may use `t`. A table may stand in place of the number: `{table = [[0.0, 0.0], [1e-5, -20.0]]}`, seconds and values by rising time, linear between and constant outside. Or `{csv = "FILE"}`, the same as two columns
 of a file, relative to the scene's folder (`#` begins a comment, a first line in which nothing resembles a number is a heading).
@@ -41,7 +41,7 @@ of a file, relative to the scene's folder (`#` begins a comment, a first line in
 
 Any key can be given by its dotted path and as a TOML value: `--set time.end=1e-4`, `--set 'integrator.scheme="musl"'`.
 
-- **Parameters**: `--set parameters.R=0.4` changes all formulas with `R`.
+- **Parameters**: `--set parameters.R=0.4` changes all formulas with `R`. A parameter that no formula names is refused. So is, in a resolved scene, one whose formulas have become numbers (`evaluated`): set it in the scene that was resolved.
 - **Items of a list** go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800`, `--set body.cylinder.velocity.1=-800`. A name with dots, or of digits, stands in quotes: `--set 'body."2".velocity.1=-800'`.
 - **Missing** keys and tables are created. Missing list items are not, except those of a list that has a default.
 - **`none`** takes a key, a table or an item of a list away, as if the file did not have it. `--set material.glass.damage=none` is glass without damage. `--set boundary.0=none` leaves the first boundary out; those behind it move up. `none` is no TOML value, so that nothing else
@@ -71,6 +71,9 @@ What is valid but hardly meant: `check` and `run` warn of
 - bodies that approach each other faster than waves travel in one of them;
 - a scene in which nothing moves, a body that flies past everything, a boundary that no body is at or heads for;
 - a disk or ring off the axis: a torus;
+- a part of a `union` that adds nothing, a `hole` that cuts nothing out or is narrower than a cell;
+- a pulse that comes after `time.end` or before `time.start`, a load that is 0 throughout, a table of other times than the run's;
+- `scatter` by which the weakest and the strongest hundredth of particles differ more than a hundredfold, or of a volume so unlike a particle's that most bear 20 times the law's strength, or a 20th;
 - bodies that do not touch but share nodes of the grid, so that one velocity field joins them;
 - in a scene without `[contact]`, bodies that can meet: they are welded there.
 

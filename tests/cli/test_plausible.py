@@ -96,6 +96,102 @@ class Plausible(CommandLineTest):
         self.assertEqual(facts["boundary_nodes"], [21, 0])
         self.assertIn("# boundary 'boundary.0': 21 nodes with mass\n", self.vitrum("check", rods, *wall).stdout)
 
+    def assert_told(self, key, words, **values):
+        """One warning of the key, with its words; none: of no key."""
+        told = [line for line in self.warnings(**values) if words in line]
+        self.assertEqual(len(told), 1 if key else 0, (values, told))
+        self.assertTrue(all(f": key '{key}': " in line for line in told), told)
+
+    def test_parts_that_add_nothing(self):
+        """Within another, within two together, cut out, and the second of two that are the same; not one that reaches out."""
+        idle = "found it adding nothing"
+
+        def told(key, *parts, hole=()):
+            values = {"body__0__box": "none", "body__0__union": f"[{', '.join(parts)}]", **({"body__0__hole": hole} if hole else {})}
+            self.assert_told(key, idle, **values)
+
+        def box(x, y, X, Y):
+            return f"{{box = {{min = [{x}, {y}], max = [{X}, {Y}]}}}}"
+
+        disk = "{disk = {centre = [0.004, 0.005], radius = 0.001}}"
+        whole = box(0, 0, 0.01, 0.01)
+        told("body.0.union.1.disk", whole, disk)
+        told("body.0.union.0.disk", disk, whole)
+        told("body.0.union.2.disk", box(0, 0, 0.004, 0.01), box(0.0035, 0, 0.01, 0.01), disk)
+        told("body.0.union.1.box", whole, whole)
+        told("body.0.union.1.disk", box(0.006, 0, 0.01, 0.01), disk, hole="{disk = {centre = [0.004, 0.005], radius = 0.0015}}")
+        told("body.0.union.0.box", box(0.002, 0.002, 0.004, 0.004)[:-1] + ", hole = {disk = {centre = [0.003, 0.003], radius = 0.0029}}}", box(0, 0, 0.002, 0.002))
+        told("", box(0, 0, 0.0045, 0.01), disk)
+        told("", whole, disk.replace("0.005]", "0.01]"))
+
+    def test_holes_that_cut_nothing_out(self):
+        def told(key, words, *holes):
+            self.assert_told(key, words, body__0__hole=f"[{', '.join(holes)}]")
+
+        def disk(x, radius):
+            return f"{{disk = {{centre = [{x}, 0.005], radius = {radius}}}}}"
+
+        told("body.0.hole.0.disk", "found it outside 'body.0.box'", disk(0.03, 0.001))
+        told("body.0.hole.0.disk", "found it outside 'body.0.box'", disk(-0.001, 0.001))  # touches it
+        told("body.0.hole.1.disk", "found it within other holes", disk(0.005, 0.002), disk(0.005, 0.0015))
+        told("body.0.hole.0.disk", "found it 0.0008 m wide, less than a cell (0.001 m)", disk(0.005, 0.0004))
+        for words in ("less than a cell", "outside", "within other holes"):
+            told("", words, disk(0.005, 0.0006))
+            told("", words, disk(-0.0019, 0.002))  # a notch
+
+    def test_loads_that_never_come(self):
+        loaded = here / "scenes" / "loaded.toml"
+        pulse, idle = "traction__1__friedlander", "nothing of it acts"
+        for key, words, values in (
+                ("traction.1.friedlander", idle, {f"{pulse}__arrival": 12e-6}), ("traction.1.friedlander", idle, {f"{pulse}__arrival": -9e-6}), ("", idle, {f"{pulse}__arrival": 11.9e-6}),
+                ("traction.1.blast", "the pulse arrives at", {pulse: "none", "traction__1__blast": "{charge = 1, standoff = 5}"}),
+                ("", idle, {pulse: "none", "traction__1__blast": "{charge = 1, standoff = 5, arrival = 0}"}),
+                ("traction.0.pressure", "it is 0 from the start", {"traction__0__pressure": '"=p*(t > 12.1*us)"'}),
+                ("", "it is 0", {"traction__0__pressure": '"=p*(t > 11.99*us)"'}), ("", "it is 0", {"traction__0__pressure": '"=p*t*(r < 0.1*mm)"'}),
+                ("boundary.0.velocity.1", "it is 0 from the start", {"boundary__0__velocity": "[0, {table = [[0, 0], [1, 0]]}]"}),
+                ("", "it is 0", {"boundary__0__velocity": "[0, {table = [[1e-9, 0], [2e-9, 1], [3e-9, 0]]}]"}),
+                ("gravity.acceleration.1", "its table is of 2e-05 to 1 s and the run of 0 to 1.2e-05 s: it stays -3", {"gravity__acceleration": "[0, {table = [[20e-6, -3], [1, 0]]}]"}),
+                ("", "its table is of", {"gravity__acceleration": "[0, {table = [[11e-6, -3], [1, 0]]}]"})):
+            with self.subTest(values):
+                self.assert_told(key, words, scene=loaded, **values)
+        self.assertFalse(any(words in line for words in (idle, "it is 0", "its table") for line in self.warnings(loaded)))
+
+    def test_flaws_beyond_all_measure(self):
+        """Of a hundred particles the strongest but one over the weakest but one: (ln 0.01 / ln 0.99)^(1 / modulus)."""
+        key = "material.m.damage.scatter"
+
+        def flaws(modulus, volume=1e-7):
+            return {"material__m__damage": f"{{toughness = 0.83e6, k = 5.0e26, m = 6, scatter = {{modulus = {modulus}, volume = {volume}}}}}", "body__1__material": '"n"',
+                    "material__n": "{density = 2500.0, young = 72e9, poisson = 0.2}"}
+
+        self.assert_told(key, "with modulus = 1.3 one particle in a hundred of body 'comes' bears 111 times what", **flaws(1.3))
+        self.assert_told("", "particle", **flaws(1.4))
+        self.assert_told(key, "half of the particles of body 'comes' bear more than 44.5 times the law's strength: that is of a volume of 0.5 m^3, and a particle has 2.5e-07 m^3", **flaws(3.725, 0.5))
+        self.assert_told(key, "bear less than 0.0303 times", **flaws(3.0, 1e-11))
+
+    def test_units_that_slipped(self):
+        def told(key, words, **values):
+            self.assert_told(key, words, **values)
+
+        thin = {"body__0__box": "{min=[0,0],max=[0.01,0.00099]}"}
+        told("space.cell", "body 'comes' is 0.00099 m wide, less than a cell (0.001 m)", **thin)
+        told("", "less than a cell", **{"body__0__box": "{min=[0,0],max=[0.01,0.001]}"})
+        told("output.every", "1e+07 outputs take about ", output__every=1e-12)
+        told("", "outputs take", output__every=1e-9)
+        for key in ("every", "history_every", "checkpoint_every"):
+            told(f"output.{key}", "1.1 s is longer than the run (0.01 s)", time__end=0.01, body__0__velocity__0=1.0, **{f"output__{key}": 1.1})
+            told("", "is longer than the run", time__end=0.01, body__0__velocity__0=1.0, **{f"output__{key}": 0.9})
+        told("body.0.stress", "-7.3e+09 Pa is more than a tenth of the modulus of body 'comes' (7.2e+10 Pa)", body__0__stress="[1e6, 0, -7.3e9, 0]")
+        told("", "a tenth of the modulus", body__0__stress="[1e6, 0, -7.1e9, 0]")
+        for load, key in (("pressure = -1e10", "pressure"), ("vector = [0, 1e10]", "vector"), ("friedlander = {pressure = 1e10, duration = 1e-6, decay = 1}", "friedlander")):
+            told(f"traction.0.{key}", "1e+10 Pa is more than a tenth of the modulus", traction=f"[{{body='waits', side='right', {load}}}]")
+        told("gravity.acceleration.1", "the run takes 1e-05 s, 1e-05 of the 1 s of its table", gravity="{acceleration = [0, {table = [[0, 1], [1, 2]]}]}")
+        told("", "of its table", gravity="{acceleration = [0, {table = [[0, 1], [9e-3, 2]]}]}")
+        told("material.m.damage.toughness", "did you mean 0.83e6?", material__m__damage="{toughness = 0.83, k = 5.0e26, m = 6}")
+        told("material.m.von_mises.yield", "found 300 Pa, expected 7.2e+04 to 1.44e+10; did you mean 300e6?", material__m__von_mises="{yield = 300, peak = 300, hardening = 0, softening = 0}")
+        told("material.m.drucker_prager.yield", "found 2e+10 Pa", material__m__drucker_prager="{yield = 2e10, beta = 1.8}")
+        told("material.m.poisson", "waves travel at 2.191e+06 m/s", material__m__poisson=0.499999)
+
     def test_a_tolerance_that_is_idle(self):
         idle = {"integrator__method": '"arkode-explicit"', "integrator__rtol": 0.1, "time__end": 40e-6}
         done = self.vitrum("run", rods, "--out", "out", "--no-fields", *overrides(**idle))
