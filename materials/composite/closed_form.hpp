@@ -146,7 +146,8 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   double outside_under_pressure(const CompositeState& s) const;
   void release_plane_at_once(CompositeState& s, Jump jump, bool flows, double fraction,
                              PointReport& report) const;
-  double advance_separated(CompositeState& s, const SymmetricTensor& strain) const;
+  double advance_separated(CompositeState& s, const SymmetricTensor& strain, Dissipation& dissipation) const;
+  void rub_faces(CompositeState& s, const SymmetricTensor& strain, Dissipation& dissipation) const;
   void flow_behind_crack(CompositeState& s, double outside_before, double fraction,
                          PointReport& report) const;
 

@@ -51,6 +51,7 @@ class CompositeCourse final : public Course {
     s.elastic_strain += fraction * direction_.elastic_strain;
     s.opening_n += fraction * direction_.opening_n;
     s.opening_t += fraction * direction_.opening_t;
+    s.plastic_strain += fraction * direction_.plastic_strain;
     return s;
   }
 

@@ -12,8 +12,9 @@ namespace vitrum {
 
 /// What bears a point whose plane has separated.
 enum class Separated : unsigned char {
-  faces,     ///< two faces: free of traction while open, elastic under pressure once closed
-  pressure,  ///< rubble: pressure, once the void is closed, and nothing else
+  faces,           ///< two faces: free of traction while open, elastic under pressure once closed
+  pressure,        ///< rubble: pressure, once the void is closed, and nothing else
+  drucker_prager,  ///< rubble: that, and shear up to q = beta P
   nothing
 };
 
@@ -31,6 +32,7 @@ struct DecohesionParameters {
   bool partial_compression = true;       ///< localises although a principal stress is compressive
   bool flow_behind_plane = true;         ///< a localised point may still flow
   Separated separated = Separated::faces;
+  double friction = 0.0;  ///< Coulomb's coefficient between the faces of a separated plane
 
   static schema::Fields<DecohesionParameters> rows();
 };
@@ -132,10 +134,13 @@ class DecohesionLaw {
                                double length) const;
 
   const DecohesionParameters& parameters() const { return parameters_; }
-  /// Whether the material behind the plane may flow.
-  bool flows_behind(bool is_separated) const {
-    return parameters_.flow_behind_plane && !(is_separated && parameters_.separated != Separated::faces);
+  bool has_faces() const { return parameters_.separated == Separated::faces; }
+  /// Whether a localised point may flow: the material behind the plane, or rubble.
+  bool flows(bool is_separated) const {
+    return is_separated && !has_faces() ? parameters_.separated == Separated::drucker_prager
+                                        : parameters_.flow_behind_plane;
   }
+  double friction() const { return parameters_.friction; }
   double viscosity() const { return parameters_.viscosity; }
   /// Opening of a plane in pure mode I at lambda = 1, m: U0 / tau_np, which is u0 unless tau_bar_0 is given.
   double opening(double onset_strength) const {

@@ -60,6 +60,11 @@ schema::Fields<DecohesionParameters> DecohesionParameters::rows() {
       {"partial_compression", &P::partial_compression,
        "damage localises although a principal stress is compressive; false: only where none is"},
       {"flow_behind_plane", &P::flow_behind_plane, "a localised point may still flow; false: elastic"},
+      {"friction",
+       &P::friction,
+       "1",
+       {0.0, 100.0},
+       "Coulomb's coefficient between the faces of a separated plane; its work is booked as plastic"},
   };
 }
 

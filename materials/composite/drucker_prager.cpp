@@ -15,7 +15,8 @@ PlasticReturn DruckerPragerLaw::flow(SymmetricTensor& elastic_strain, const Modu
   double q = trial_q - 3.0 * G * multiplier;
   const double trial_trace = trace(elastic_strain);
   double end_trace = trial_trace - dilatancy_ * multiplier;
-  if (!(q > 0.0)) {  // beyond the apex, which only a trial far into tension under dilatant flow sees
+  if (!(q > 0.0) &&
+      dilatancy_ > 0.0) {  // beyond the apex, which only a trial far into tension under dilatant flow sees
     q = 0.0;
     end_trace = parameters_.yield / (parameters_.beta * K);
     multiplier = (trial_trace - end_trace) / dilatancy_;

@@ -42,12 +42,14 @@ class CompositeEvolution final : public CompositeModes,
   using Models::decohesion_;
   using Models::elastic_;
   using Models::enter_separated;
+  using Models::face_slip;
   using Models::fall_to_admissible_stress;
   using Models::flow;
   using Models::flow_behind_crack;
   using Models::flow_direction;
   using Models::flow_localisation;
   using Models::free_faces;
+  using Models::is_rubble;
   using Models::open_plane;
   using Models::secant;
   using Models::separate;
@@ -93,6 +95,11 @@ class CompositeEvolution final : public CompositeModes,
   bool on_surface(const CompositeMode& mode, const CompositeState& s, bool reached) const;
   bool at_strength(const CompositeMode& mode, const CompositeState& s) const;
   void set_branch(CompositeMode& mode, const CompositeState& s) const;
+  void select_proportional(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
+                           double fraction, PointReport& report) const;
+  bool select_flow_and_sliding(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
+                               bool may_flow) const;
+  void project_faces(const CompositeMode& mode, CompositeState& s) const;
   bool select_flow_and_opening(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
                                bool may_flow, bool may_open) const;
 

@@ -18,7 +18,7 @@ void CompositeModels<D, Y, C>::flow_behind_crack(CompositeState& s, double outsi
   const double admitted = tolerance::on_surface * elastic_.shear * norm(deviator(s.elastic_strain));
   const double violated = excess(s);
   if (!(violated > admitted)) return;
-  if (!is_separated(s)) {
+  if (!is_separated(s) || is_rubble(s)) {
     dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s), outside_before);
     return;
   }

@@ -19,7 +19,7 @@ void CompositeClosedForm<D, Y, C>::advance_localised(CompositeState& s, const Sy
   for (int pass = 0; pass < 256 && fraction < 1.0; ++pass) {
     const double left = 1.0 - fraction;
     if (is_separated(s)) {
-      const double closed_at = advance_separated(s, left * strain);
+      const double closed_at = advance_separated(s, left * strain, report.dissipation);
       if (closed_at >= 0.0) report.record(EventKind::closure, at(fraction + left * closed_at), stress(s));
       fraction = 1.0;
     } else {
@@ -157,19 +157,66 @@ double CompositeClosedForm<D, Y, C>::advance_cohesive(CompositeState& s, const S
 
 /// A separated plane over `strain`; returns the fraction at which an open crack closed, or -1.
 template <bool D, Yielding Y, bool C>
-double CompositeClosedForm<D, Y, C>::advance_separated(CompositeState& s,
-                                                       const SymmetricTensor& strain) const {
+double CompositeClosedForm<D, Y, C>::advance_separated(CompositeState& s, const SymmetricTensor& strain,
+                                                       Dissipation& dissipation) const {
+  const CompositeState before = s;
   const double gap = s.opening_n;
   const DecohesionPlane plane{s.normal};
   const PlaneTraction change = traction(plane, strain, secant_moduli(s));
   s.elastic_strain += strain;
   free_faces(s);
   const Separated bears = decohesion_.parameters().separated;
-  if (!(gap > 0.0) || s.opening_n > 0.0 || bears == Separated::nothing) return -1.0;
-  if (bears == Separated::pressure) return std::clamp(-gap / (trace(strain) * s.effective_length), 0.0, 1.0);
-  // Between traction-free faces the gap shrinks linearly along the path until they meet.
-  const double closing = -change.normal * s.effective_length;
-  return closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
+  if (bears == Separated::nothing) return -1.0;
+  const bool closes = gap > 0.0 && !(s.opening_n > 0.0), rubs = decohesion_.friction() > 0.0;
+  double closed_at = -1.0;
+  if (closes && bears != Separated::faces) {
+    closed_at = std::clamp(-gap / (trace(strain) * s.effective_length), 0.0, 1.0);
+  } else if (closes) {
+    // Between traction-free faces the gap shrinks linearly along the path until they meet.
+    const double closing = -change.normal * s.effective_length;
+    closed_at = closing > 0.0 ? std::clamp(gap * change.normal_stiffness / closing, 0.0, 1.0) : 1.0;
+  }
+  if (!rubs || (gap > 0.0 && !closes)) return closed_at;
+  // Faces slide freely until they meet, and rub until they part.
+  s = before;
+  double from = 0.0, to = 1.0;
+  if (closes) {
+    from = closed_at;
+    s.elastic_strain += from * strain;
+    free_faces(s);
+    s.opening_n = 0.0;
+  } else {
+    const double pressing = -traction(plane, s.elastic_strain, secant_moduli(s)).normal;
+    if (change.normal > pressing) to = std::max(0.0, pressing / change.normal);
+  }
+  rub_faces(s, (to - from) * strain, dissipation);
+  if (to < 1.0) {
+    s.elastic_strain += (1.0 - to) * strain;
+    free_faces(s);
+  }
+  return closed_at;
+}
+
+/// Closed faces over `strain`, on a straight path of the traction: they stick until shear reaches Coulomb's
+/// cone, and then slide along it. Their work is booked as plastic.
+template <bool D, Yielding Y, bool C>
+void CompositeClosedForm<D, Y, C>::rub_faces(CompositeState& s, const SymmetricTensor& strain,
+                                             Dissipation& dissipation) const {
+  const DecohesionPlane plane{s.normal};
+  const PlaneTraction start = traction(plane, s.elastic_strain, secant_moduli(s));
+  const double opening = s.opening_t, friction = decohesion_.friction();
+  s.elastic_strain += strain;
+  free_faces(s);
+  const double slip = s.opening_t - opening;
+  if (slip == 0.0) return;
+  const PlaneTraction end = traction(plane, s.elastic_strain, secant_moduli(s));
+  const double side = slip > 0.0 ? 1.0 : -1.0;
+  const double borne = -friction * std::min(start.normal, 0.0), borne_at_end = side * end.tangential;
+  const double missing = borne - side * start.tangential;  // to the cone, at the start
+  const double beyond = side * slip * end.tangential_stiffness / s.effective_length;
+  const double onset = std::max(missing, 0.0) / (std::max(missing, 0.0) + beyond);
+  const double mean = 0.5 * (borne + onset * (borne_at_end - borne) + borne_at_end);
+  dissipation.plastic += std::max(mean, 0.0) * side * slip / s.effective_length;
 }
 
 /// Plastic flow of a localised point, and what it does to its faces, told at `fraction` of the increment.

@@ -40,6 +40,9 @@ std::shared_ptr<const Material> with_yield(const MaterialParameters& p, double c
 std::shared_ptr<const Material> make_composite(const MaterialParameters& p, double cell) {
   if (p.von_mises && p.drucker_prager)
     throw std::invalid_argument("material '" + p.name + "': von_mises and drucker_prager exclude each other");
+  if (p.decohesion && p.decohesion->separated == Separated::drucker_prager &&
+      !(p.drucker_prager && p.drucker_prager->beta > 0.0))
+    throw std::invalid_argument("material '" + p.name + "': rubble needs drucker_prager with beta > 0");
   return p.damage ? with_yield<true>(p, cell) : with_yield<false>(p, cell);
 }
 

@@ -17,7 +17,7 @@ struct CompositeMode {
     held,        ///< localised, traction below the strength: elastic with the opening frozen
     decohering,  ///< the plane softens, eqs. 13-18
     open,        ///< separated, faces free of traction
-    closed       ///< separated, faces in contact without friction
+    closed       ///< separated, faces in contact, or rubble under pressure
   };
 
   bool tension = false;   ///< side of zero mean elastic strain
@@ -27,6 +27,8 @@ struct CompositeMode {
   bool viscous = false;   ///< decohering with a viscosity
   bool sliding =
       false;  ///< held at zero mean strain, which either side leads back to: keeps the side it came from
+  double slides = 0.0;   ///< +1, -1: closed faces slide so under friction; 0: they stick, or nothing rubs
+  double sheared = 1.0;  ///< rubble from its closure on: share of a deviator that stays elastic
   Plane plane = Plane::intact;
   double coefficient = 0.0;                                     ///< C(R) of eq. 7
   double hardening_modulus = 0.0;                               ///< h of eq. 21 on the present branch, Pa
@@ -36,7 +38,8 @@ struct CompositeMode {
   bool separated() const { return plane == Plane::open || plane == Plane::closed; }
   /// Whether anything but the elastic strain changes along a curve; otherwise the state moves along a
   /// straight line.
-  bool evolves() const { return damaging || flowing || decohering(); }
+  bool evolves() const { return damaging || flowing || decohering() || rubs(); }
+  bool rubs() const { return slides != 0.0; }
   /// Whether the strain may have to go back for the state to stay in equilibrium: a plane that softens
   /// without viscosity, or softening flow behind faces that give way.
   bool may_snap_back() const {
@@ -80,6 +83,8 @@ enum class CompositeGuard : unsigned char {
   separation,            ///< lambda = 1
   closure,               ///< the gap vanishes
   opening,               ///< the contact traction vanishes
+  slip,                  ///< shear reaches what friction bears
+  stick,                 ///< sliding faces come to rest
 };
 
 /// The composite as an ODE between events, whatever its models.

@@ -50,10 +50,11 @@ ModeProblem::ModeProblem(const CompositeModes& law, const CompositeMode& mode, c
   }
   if (mode.damaging) add(crack_density, crack_density_limit), add(damage, energy);
   if (mode.decohering()) add(decohesion, 1.0);
-  if (mode.decohering() || (mode.separated() && mode.flowing)) {
+  if (mode.decohering() || (mode.separated() && mode.flowing) || mode.rubs()) {
     const double u0 = law.reference_opening(state);
     add(opening_n, u0), add(opening_t, u0);
   }
+  if (mode.rubs() && !mode.flowing) add(plastic, energy);
   if (mode.decohering()) add(fracture, energy);
   if (fraction_is_unknown_) {
     start_values_[fraction_of_path] = fraction;
@@ -92,7 +93,7 @@ CompositeState ModeProblem::state(double parameter, const double* y) const {
     return s;
   }
   s.elastic_strain += (fraction(parameter, y) - start_fraction_) * path_.strain;
-  if (mode_.decohering()) {
+  if (mode_.decohering() || mode_.rubs()) {
     const DecohesionPlane plane{s.normal};
     s.elastic_strain -=
         plane.jump_strain(s.opening_n - start_.opening_n, s.opening_t - start_.opening_t, s.effective_length);

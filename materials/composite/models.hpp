@@ -24,8 +24,11 @@ class CompositeModels {
       : parameters_(parameters), elastic_(elastic_moduli(parameters.elastic)), cell_(cell) {
     if constexpr (has_damage) damage_ = DamageLaw(*parameters.damage, parameters.elastic);
     if constexpr (yielding == Yielding::von_mises) von_mises_ = VonMisesLaw(*parameters.von_mises);
-    if constexpr (yielding == Yielding::drucker_prager)
+    if constexpr (yielding == Yielding::drucker_prager) {
       drucker_prager_ = DruckerPragerLaw(*parameters.drucker_prager);
+      rubble_ =
+          DruckerPragerLaw({.yield = 0.0, .beta = parameters.drucker_prager->beta, .associated = false});
+    }
     if constexpr (has_decohesion) decohesion_ = DecohesionLaw(*parameters.decohesion);
   }
 
@@ -82,6 +85,18 @@ class CompositeModels {
   // damage_at_once.hpp
   bool damage_at_once(CompositeState& s, double fraction, PointReport& report) const;
 
+  /// Whether the point is rubble that bears shear under pressure.
+  bool is_rubble(const CompositeState& s) const {
+    if constexpr (has_decohesion && yielding == Yielding::drucker_prager)
+      return is_separated(s) && decohesion_.parameters().separated == Separated::drucker_prager;
+    else
+      return false;
+  }
+  /// Eq. 19 of a point: rubble has no cohesion, and does not dilate.
+  const DruckerPragerLaw& pressure_surface(const CompositeState& s) const {
+    return is_rubble(s) ? rubble_ : drucker_prager_;
+  }
+
   // yield_surface.hpp
   bool surface_acts(bool tension, const CompositeState& s) const;
   double yield_function(const CompositeState& s, const Moduli& moduli) const;
@@ -117,6 +132,7 @@ class CompositeModels {
   SymmetricTensor strain_left_by_faces(const CompositeMode& mode, const CompositeState& s,
                                        const Moduli& moduli, const SymmetricTensor& strain, double& gap,
                                        double& slip) const;
+  double face_slip(const CompositeMode& mode, const PlaneTraction& change, double length) const;
   bool is_overloaded(const CompositeMode& mode, const CompositeState& s) const;
   void open_plane(CompositeState& s, const DecohesionLaw::Advance& next) const;
   void snap_back(CompositeState& s, const Moduli& moduli, Dissipation& dissipation) const;
@@ -135,7 +151,7 @@ class CompositeModels {
   double cell_;
   DamageLaw damage_;
   VonMisesLaw von_mises_;
-  DruckerPragerLaw drucker_prager_;
+  DruckerPragerLaw drucker_prager_, rubble_;
   DecohesionLaw decohesion_;
 };
 

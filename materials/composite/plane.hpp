@@ -126,7 +126,13 @@ SymmetricTensor CompositeModels<D, Y, C>::strain_left_by_faces(const CompositeMo
   const DecohesionPlane plane{s.normal};
   const double L = s.effective_length;
   if (const Separated bears = decohesion_.parameters().separated; bears != Separated::faces) {
-    const bool presses = bears == Separated::pressure && mode.plane == CompositeMode::Plane::closed;
+    const bool is_closed = mode.plane == CompositeMode::Plane::closed;
+    if (is_closed && is_rubble(s)) {
+      gap = slip = 0.0;
+      return mode.sheared < 1.0 ? mode.sheared * deviator(strain) + (trace(strain) / 3.0) * identity()
+                                : strain;
+    }
+    const bool presses = bears == Separated::pressure && is_closed;
     gap = bears == Separated::nothing ? L * plane.normal_part(strain) : presses ? 0.0 : L * trace(strain);
     slip = 2.0 * L * plane.tangential_part(strain);
     return (presses ? trace(strain) / 3.0 : 0.0) * identity() + 0.0 * strain;  // what is not a number shows
@@ -135,8 +141,21 @@ SymmetricTensor CompositeModels<D, Y, C>::strain_left_by_faces(const CompositeMo
   gap = mode.plane == CompositeMode::Plane::open && t.normal_stiffness > 0.0
             ? L * t.normal / t.normal_stiffness
             : 0.0;
-  slip = t.tangential_stiffness > 0.0 ? L * t.tangential / t.tangential_stiffness : 0.0;
+  slip = face_slip(mode, t, L);
   return strain - plane.jump_strain(gap, slip, L);
+}
+
+/// Sliding (m) of the faces of a separated plane while the traction changes so: all that shear asks for, or,
+/// on closed faces that rub, what keeps the traction on Coulomb's cone; none where they stick.
+template <bool D, Yielding Y, bool C>
+double CompositeModels<D, Y, C>::face_slip(const CompositeMode& mode, const PlaneTraction& change,
+                                           double length) const {
+  if (!(change.tangential_stiffness > 0.0)) return 0.0;
+  const double friction = mode.plane == CompositeMode::Plane::closed ? decohesion_.friction() : 0.0;
+  if (friction > 0.0 && !mode.rubs()) return 0.0;
+  const double driving =
+      friction > 0.0 ? change.tangential + mode.slides * friction * change.normal : change.tangential;
+  return length * driving / change.tangential_stiffness;
 }
 
 /// Whether the traction is more than the plane bears.
@@ -187,13 +206,22 @@ void CompositeModels<D, Y, C>::snap_back(CompositeState& s, const Moduli& moduli
 }
 
 /// Opens, slides or closes the crack until its faces carry no traction, or only pressure once closed
-/// (frictionless). Rubble has no faces: its void takes all the strain but what is left for pressure.
+/// and what friction holds. Rubble has no faces: its void takes all the strain but what is left for pressure,
+/// and, where it bears shear, what of the deviator comes after the closure.
 template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::free_faces(CompositeState& s) const {
   const DecohesionPlane plane{s.normal};
   const double length = s.effective_length;
   if (const Separated bears = decohesion_.parameters().separated; bears != Separated::faces) {
     const double volumetric = trace(s.elastic_strain) + s.opening_n / length;
+    if (is_rubble(s) && volumetric < 0.0) {
+      if (!(s.opening_n > 0.0)) return;
+      const double after = volumetric / trace(s.elastic_strain);
+      s.opening_t += 2.0 * length * (1.0 - after) * plane.tangential_part(s.elastic_strain);
+      s.opening_n = 0.0;
+      s.elastic_strain = after * s.elastic_strain;
+      return;
+    }
     s.opening_t += 2.0 * length * plane.tangential_part(s.elastic_strain);
     s.opening_n = bears == Separated::nothing ? s.opening_n + length * plane.normal_part(s.elastic_strain)
                                               : length * std::max(volumetric, 0.0);
@@ -208,9 +236,13 @@ void CompositeModels<D, Y, C>::free_faces(CompositeState& s) const {
     const Moduli moduli = secant(tension, s);
     const PlaneTraction t = traction(plane, s.elastic_strain, moduli);
     const double opening = t.normal_stiffness > 0.0 ? length * t.normal / t.normal_stiffness : 0.0;
-    const double sliding =
-        t.tangential_stiffness > 0.0 ? length * t.tangential / t.tangential_stiffness : 0.0;
     const double normal = std::max(opening, -s.opening_n);
+    const double pressing =
+        normal == -s.opening_n ? std::max(0.0, t.normal_stiffness * normal / length - t.normal) : 0.0;
+    const double bearable = decohesion_.friction() * pressing;
+    const double held = std::clamp(t.tangential, -bearable, bearable);
+    const double sliding =
+        t.tangential_stiffness > 0.0 ? length * (t.tangential - held) / t.tangential_stiffness : 0.0;
     const SymmetricTensor relaxed = s.elastic_strain - plane.jump_strain(normal, sliding, length);
     if (side == 1 || (trace(relaxed) > 0.0) == tension) {
       s.elastic_strain = relaxed;
@@ -242,6 +274,7 @@ template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::enter_separated(CompositeMode& mode, const CompositeState& s, double fraction,
                                                PointReport& report) const {
   mode.plane = s.opening_n > 0.0 ? CompositeMode::Plane::open : CompositeMode::Plane::closed;
+  if (is_rubble(s)) mode.tension = mode.plane == CompositeMode::Plane::open;
   report.record(EventKind::separation, fraction, stress(s));
 }
 

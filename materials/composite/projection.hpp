@@ -28,7 +28,7 @@ void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeSt
   }
   for (int i = 0; i < 3; ++i) {
     if constexpr (C)
-      if (mode.separated()) free_faces(s);
+      if (mode.separated()) project_faces(mode, s);
     if constexpr (has_yield) {
       if (mode.flowing) {
         const Moduli m = secant(mode.tension, s);
@@ -50,6 +50,20 @@ void CompositeEvolution<D, Y, C>::project(const CompositeMode& mode, CompositeSt
       }
     }
     if (!mode.flowing || !mode.separated()) break;
+  }
+}
+
+/// Faces that slide under friction keep to Coulomb's cone; all others are freed. (Rubble has none.)
+template <bool D, Yielding Y, bool C>
+void CompositeEvolution<D, Y, C>::project_faces(const CompositeMode& mode, CompositeState& s) const {
+  if (mode.rubs()) {
+    const DecohesionPlane plane{s.normal};
+    const PlaneTraction t = traction(plane, s.elastic_strain, secant(mode.tension, s));
+    const double slip = face_slip(mode, t, s.effective_length);
+    s.elastic_strain -= plane.jump_strain(0.0, slip, s.effective_length);
+    s.opening_t += slip;
+  } else if (!is_rubble(s)) {
+    free_faces(s);
   }
 }
 

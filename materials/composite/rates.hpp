@@ -109,6 +109,8 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
     flow_rate = flow_drive / reference;
     r.opening_n *= r.fraction, r.opening_t *= r.fraction;
   }
+  if constexpr (C && Y == Yielding::drucker_prager)
+    if (mode.sheared < 1.0) r.plastic_strain = (1.0 - mode.sheared) * norm(deviator(path.strain));
   r.elastic_strain = r.fraction * strain - opening_rate * jump - flow_rate * given;
   if constexpr (has_yield) {
     if (mode.flowing) {
@@ -117,6 +119,10 @@ CompositeRates CompositeEvolution<D, Y, C>::rates(const CompositeMode& mode, con
       r.opening_n -= gap_of_flow * flow_rate, r.opening_t -= slip_of_flow * flow_rate;
     }
   }
+  if constexpr (C)
+    if (mode.rubs())
+      r.plastic += traction(DecohesionPlane{s.normal}, s.elastic_strain, m).tangential * r.opening_t /
+                   s.effective_length;
   return r;
 }
 
@@ -161,7 +167,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
   const double size = norm(path.strain), per_size = size > 0.0 ? 1.0 / size : 0.0;
   const double t = trace(s.elastic_strain);
   const bool intact = mode.plane == CompositeMode::Plane::intact;
-  const bool has_faces = !(C && mode.separated() && decohesion_.parameters().separated != Separated::faces);
+  const bool has_faces = !(C && mode.separated() && !decohesion_.has_faces());
   if (!mode.sliding && has_faces &&
       (Y == Yielding::drucker_prager || (D && (intact || s.crack_density > 0.0))))
     g.add(CompositeGuard::mean_strain_sign, (mode.tension ? -t : t) * per_size);
@@ -176,7 +182,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
               per_size);
     }
   }
-  const bool needs_rates = mode.flowing || (mode.decohering() && !mode.viscous);
+  const bool needs_rates = mode.flowing || (mode.decohering() && !mode.viscous) || mode.rubs();
   const CompositeRates r = needs_rates ? rates(mode, s, path) : CompositeRates{};
   if constexpr (has_yield) {
     if (mode.flowing) {
@@ -190,7 +196,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
           if (intact && mode.hardening_modulus < 0.0)
             g.add(CompositeGuard::localisation, -flow_localisation(s, m, mode.hardening_modulus));
       }
-    } else if (surface_acts(mode.tension, s)) {
+    } else if (surface_acts(mode.tension, s) && !(mode.sheared < 1.0)) {
       g.add(CompositeGuard::yield, yield_function(s, m) / yield_scale());
     }
   }
@@ -222,6 +228,11 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
     } else if (mode.plane == Plane::closed) {
       g.add(CompositeGuard::opening,
             has_faces ? traction_now.normal * per_size / elastic_.p_wave() : t * per_size);
+      if (mode.rubs())
+        g.add(CompositeGuard::stick, -mode.slides * r.opening_t * per_size / s.effective_length);
+      else if (const double friction = decohesion_.friction(); friction > 0.0)
+        g.add(CompositeGuard::slip, (std::abs(traction_now.tangential) + friction * traction_now.normal) *
+                                        per_size / elastic_.p_wave());
     }
   }
 }

@@ -20,6 +20,7 @@ CompositeMode CompositeEvolution<D, Y, C>::first_mode(CompositeState& s, const S
   if constexpr (C)
     if (is_localised(s))
       mode.plane = !is_separated(s) ? Plane::held : s.opening_n > 0.0 ? Plane::open : Plane::closed;
+  if (is_rubble(s) && mode.plane == Plane::open) mode.tension = true;  // its surface is that under pressure
   select_models(mode, std::nullopt, s, path, 0.0, report);
   return mode;
 }
@@ -29,6 +30,10 @@ void CompositeEvolution<D, Y, C>::transition(CompositeMode& mode, CompositeGuard
                                              const StrainPath& path, double fraction,
                                              PointReport& report) const {
   using Plane = CompositeMode::Plane;
+  // Rubble that is let go reaches its yield surface and its end at one place.
+  if (is_rubble(s) && mode.plane == Plane::closed && trace(path.strain) > 0.0 &&
+      trace(s.elastic_strain) >= -tolerance::rounding * norm(path.strain))
+    root = CompositeGuard::opening;
   switch (root) {
     case CompositeGuard::mean_strain_sign:
       mode.tension = !mode.tension;
@@ -69,11 +74,15 @@ void CompositeEvolution<D, Y, C>::transition(CompositeMode& mode, CompositeGuard
     case CompositeGuard::closure:
       s.opening_n = 0.0;
       mode.plane = Plane::closed;
+      if (is_rubble(s)) mode.tension = false;
       report.record(EventKind::closure, fraction, stress(s));
       break;
     case CompositeGuard::opening:
       mode.plane = Plane::open;
+      if (is_rubble(s)) mode.tension = true, s.elastic_strain = {};
       break;
+    case CompositeGuard::slip:
+    case CompositeGuard::stick:
     case CompositeGuard::yield:
     case CompositeGuard::unload:
     case CompositeGuard::decohesion:
@@ -98,6 +107,7 @@ void CompositeEvolution<D, Y, C>::select_models(CompositeMode& mode, std::option
                                                 PointReport& report) const {
   if constexpr (D) select_damage(mode, s, path, fraction, report);
   fall_to_admissible_stress(mode, s, fraction, report);
+  select_proportional(mode, s, path, fraction, report);
   // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
   bool unloads = root == CompositeGuard::unload, stalls = root == CompositeGuard::opening_stops,
@@ -203,7 +213,8 @@ bool CompositeEvolution<D, Y, C>::is_near_surface(const CompositeMode& mode, con
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::on_surface(const CompositeMode& mode, const CompositeState& s,
                                              bool reached) const {
-  return surface_acts(mode.tension, s) && (reached || mode.flowing || is_near_surface(mode, s));
+  return mode.sheared == 1.0 && surface_acts(mode.tension, s) &&
+         (reached || mode.flowing || is_near_surface(mode, s));
 }
 
 template <bool D, Yielding Y, bool C>
@@ -233,6 +244,68 @@ void CompositeEvolution<D, Y, C>::set_branch(CompositeMode& mode, const Composit
   }
 }
 
+/// Rubble whose void closes under more shear than its pressure bears follows the yield surface from its apex
+/// along a straight line. (No flow has a direction at the apex itself.) What it dissipates until the end of
+/// the path is booked.
+template <bool D, Yielding Y, bool C>
+void CompositeEvolution<D, Y, C>::select_proportional([[maybe_unused]] CompositeMode& mode,
+                                                      [[maybe_unused]] const CompositeState& s,
+                                                      [[maybe_unused]] const StrainPath& path,
+                                                      [[maybe_unused]] double fraction,
+                                                      [[maybe_unused]] PointReport& report) const {
+  if constexpr (C && Y == Yielding::drucker_prager) {
+    mode.sheared = 1.0;
+    if (mode.plane != CompositeMode::Plane::closed || !is_rubble(s) || trace(path.strain) > 0.0) return;
+    if (norm(s.elastic_strain) > tolerance::rounding * norm(path.strain)) return;
+    const Moduli m = secant(false, s);
+    const double shear = norm(deviator(path.strain)), asked = std::sqrt(6.0) * m.shear * shear;
+    const double borne = -this->parameters_.drucker_prager->beta * m.bulk * trace(path.strain);
+    if (!(asked > borne)) return;
+    mode.sheared = borne / asked;
+    const double strain = (1.0 - fraction) * shear;
+    report.dissipation.plastic += m.shear * mode.sheared * (1.0 - mode.sheared) * strain * strain;
+    if (s.plastic_strain == 0.0) report.record(EventKind::yield, fraction, stress(s));
+  }
+}
+
+/// Of flow and sliding of closed faces, those that go forward: both together, or the one that relieves the
+/// other. True, and neither, where the faces bear nothing and part.
+template <bool D, Yielding Y, bool C>
+bool CompositeEvolution<D, Y, C>::select_flow_and_sliding(CompositeMode& mode, const CompositeState& s,
+                                                          const StrainPath& path, bool may_flow) const {
+  const DecohesionPlane plane{s.normal};
+  const Moduli m = secant(mode.tension, s);
+  const PlaneTraction t = traction(plane, s.elastic_strain, m), change = traction(plane, path.strain, m);
+  const double rounding = tolerance::rounding * m.p_wave() * (norm(s.elastic_strain) + norm(path.strain));
+  if (t.normal >= -rounding && change.normal > 0.0) return true;
+  // Where the faces have just met, the path tells to which side it pushes.
+  const double pushing = std::abs(t.tangential) > rounding ? t.tangential : change.tangential;
+  const double size = std::abs(t.tangential) + std::abs(t.normal);
+  const bool slides =
+      std::abs(t.tangential) + decohesion_.friction() * t.normal >= -tolerance::on_surface * size - rounding;
+  CompositeMode sliding = mode, flowing = mode, both = mode;
+  sliding.slides = pushing > 0.0 ? 1.0 : pushing < 0.0 ? -1.0 : 0.0;
+  both.slides = sliding.slides;
+  sliding.flowing = false, flowing.slides = 0.0, flowing.flowing = both.flowing = true;
+  mode.flowing = false, mode.slides = 0.0;
+  if (may_flow && Y == Yielding::von_mises && softens_past_equilibrium(flowing, s)) {
+    mode.flowing = true;  // the fall comes first
+    return false;
+  }
+  const auto goes_forward = [&](const CompositeMode& tried) {
+    const CompositeRates r = rates(tried, s, path);
+    return (tried.slides == 0.0 || tried.slides * r.opening_t > 0.0) &&
+           (!tried.flowing || r.plastic_strain > 0.0);
+  };
+  if (slides && may_flow && goes_forward(both))
+    mode = both;
+  else if (slides && goes_forward(sliding))
+    mode = sliding;
+  else if (may_flow && goes_forward(flowing))
+    mode = flowing;
+  return false;
+}
+
 /// Of flow and decohesion, those that go forward: both together, then each alone. True where neither can go
 /// on alone, and both together only backwards along the path: each drives the other, faster than the path
 /// does.
@@ -250,6 +323,13 @@ bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, c
     }
     if (mode.plane == Plane::held || mode.plane == Plane::decohering)
       mode.plane = may_open ? Plane::decohering : Plane::held;
+  }
+  mode.slides = 0.0;
+  if constexpr (C) {
+    if (mode.plane == Plane::closed && decohesion_.friction() > 0.0) {
+      if (!select_flow_and_sliding(mode, s, path, may_flow)) return false;
+      mode.plane = Plane::open;
+    }
   }
   bool opens_alone = false;
   if constexpr (C) {

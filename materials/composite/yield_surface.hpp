@@ -10,7 +10,7 @@ namespace vitrum {
 template <bool D, Yielding Y, bool C>
 bool CompositeModels<D, Y, C>::surface_acts(bool tension, const CompositeState& s) const {
   if constexpr (has_yield && C)
-    if (is_localised(s) && !decohesion_.flows_behind(is_separated(s))) return false;
+    if (is_localised(s) && !decohesion_.flows(is_separated(s))) return false;
   return Y == Yielding::von_mises || (Y == Yielding::drucker_prager && !tension);
 }
 
@@ -20,7 +20,7 @@ double CompositeModels<D, Y, C>::yield_function(const CompositeState& s, const M
   if constexpr (Y == Yielding::von_mises)
     return von_mises_.yield_function(s.elastic_strain, moduli, s.plastic_strain);
   else if constexpr (Y == Yielding::drucker_prager)
-    return drucker_prager_.yield_function(s.elastic_strain, moduli);
+    return pressure_surface(s).yield_function(s.elastic_strain, moduli);
   else
     return -1.0;
 }
@@ -43,7 +43,7 @@ SymmetricTensor CompositeModels<D, Y, C>::flow_direction(const CompositeState& s
   const double size = norm(d);
   const SymmetricTensor n = size > 0.0 ? (1.0 / size) * d : SymmetricTensor{};
   if constexpr (Y == Yielding::drucker_prager) {
-    const double psi = drucker_prager_.dilatancy(), unit = std::sqrt(1.5 + psi * psi / 3.0);
+    const double psi = pressure_surface(s).dilatancy(), unit = std::sqrt(1.5 + psi * psi / 3.0);
     return (std::sqrt(1.5) / unit) * n + (psi / (3.0 * unit)) * identity();
   }
   return n;
@@ -62,7 +62,7 @@ double CompositeModels<D, Y, C>::flow(CompositeState& s, const Moduli& moduli,
     s.elastic_strain = mean * identity() + (1.0 - 2.0 * moduli.shear * result.flow / trial) * d;
     return result.dissipation;
   } else if constexpr (Y == Yielding::drucker_prager) {
-    return drucker_prager_.flow(s.elastic_strain, moduli, violated_before, s.plastic_strain).dissipation;
+    return pressure_surface(s).flow(s.elastic_strain, moduli, violated_before, s.plastic_strain).dissipation;
   } else {
     return 0.0;
   }
@@ -77,7 +77,7 @@ bool CompositeModels<D, Y, C>::fall_onto_surface(const CompositeMode& mode, Comp
   const Moduli m = secant(mode.tension, s);
   const double excess = yield_function(s, m);
   if (!(excess > tolerance::on_surface * m.shear * norm(deviator(s.elastic_strain)))) return false;
-  if (C && mode.separated()) {
+  if (C && mode.separated() && !is_rubble(s)) {
     flow_behind_crack(s, excess, dissipation);
     return true;
   }

@@ -99,6 +99,25 @@ void warn_of_strengths(const TableView& table, const MaterialParameters& materia
                      "Pa");
 }
 
+/// What bears a separated point, and what that asks of other keys.
+void check_separated(const TableView& material, const MaterialParameters& given) {
+  const TableView table = *material.table("decohesion");
+  if (!table.sound("separated")) return;
+  const Separated separated = given.decohesion->separated;
+  if (separated != Separated::faces && table.sound("friction") && given.decohesion->friction > 0.0)
+    table.fail("friction", "0, or separated = \"faces\": nothing else rubs");
+  if (separated != Separated::drucker_prager) return;
+  if (!given.drucker_prager)
+    table.fail(
+        "separated",
+        fmt::format("another value, or a table [{}.drucker_prager], whose beta rubble has", material.path()));
+  else if (const TableView pressed = *material.table("drucker_prager");
+           pressed.sound("beta") && !(given.drucker_prager->beta > 0.0))
+    pressed.fail("beta",
+                 "a number > 0, as rubble of decohesion.separated = \"drucker-prager\" has no other "
+                 "strength");
+}
+
 void check_material(const TableView& table, const MaterialParameters& material) {
   if (table.sound("density") && table.sound("young") && table.sound("poisson"))
     warn_of_wave_speed(table, material.elastic), warn_of_strengths(table, material);
@@ -110,6 +129,7 @@ void check_material(const TableView& table, const MaterialParameters& material) 
   if (table.has("drucker_prager") && table.has("von_mises"))
     table.report("von_mises",
                  "found together with 'drucker_prager', expected only one plasticity model in a material");
+  if (material.decohesion) check_separated(table, material);
   if (material.law) check_law(table, material);
 }
 

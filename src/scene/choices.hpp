@@ -10,10 +10,9 @@ using schema::Named;
 // What scene files call the values of enumerations.
 inline constexpr std::array geometries{Named{"axisymmetric", Geometry::axisymmetric},
                                        Named{"plane-strain", Geometry::plane_strain}};
-inline constexpr std::array shape_functions{Named{"linear", mpm::ShapeKind::linear},
-                                            Named{"gimp", mpm::ShapeKind::gimp},
-                                            Named{"cpgimp", mpm::ShapeKind::cpgimp},
-                                            Named{"bspline2", mpm::ShapeKind::bspline2}};
+inline constexpr std::array shape_functions{
+    Named{"linear", mpm::ShapeKind::linear}, Named{"gimp", mpm::ShapeKind::gimp},
+    Named{"cpgimp", mpm::ShapeKind::cpgimp}, Named{"bspline2", mpm::ShapeKind::bspline2}};
 inline constexpr std::array gradients{Named{"nodes", Gradients::nodes},
                                       Named{"centroids", Gradients::centroids}};
 inline constexpr std::array filters{Named{"none", Filter::none}, Named{"pressures", Filter::pressures}};
@@ -28,9 +27,9 @@ inline constexpr std::array damage_rates{Named{"running-maximum", DamageRate::ru
 inline constexpr std::array damage_wave_speeds{Named{"bar", false}, Named{"pressure-wave", true}};
 /// Whether E of eq. 10 is that of the virgin material.
 inline constexpr std::array cohesive_moduli{Named{"damaged", false}, Named{"undamaged", true}};
-inline constexpr std::array separated_points{Named{"faces", Separated::faces},
-                                             Named{"pressure", Separated::pressure},
-                                             Named{"nothing", Separated::nothing}};
+inline constexpr std::array separated_points{
+    Named{"faces", Separated::faces}, Named{"pressure", Separated::pressure},
+    Named{"drucker-prager", Separated::drucker_prager}, Named{"nothing", Separated::nothing}};
 /// Whether the flow is associated.
 inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
 /// Whether the search for a decohesion plane goes beyond the plane of the scene.

@@ -124,8 +124,9 @@ const Table& decohesion_table() {
        {"moduli", &DecohesionParameters::undamaged, cohesive_moduli,
         "E of eq. 10, from localisation on: with the damage reached, or of the virgin material"},
        {"separated", &DecohesionParameters::separated, separated_points,
-        "what bears a separated point: two faces, free of traction while open and frictionless once closed; "
-        "pressure alone, once its void is closed; or nothing"}});
+        "what bears a separated point: two faces, free of traction while open, under pressure and `friction` "
+        "once closed; rubble, once its void is closed: pressure alone, or with it shear up to beta P of "
+        "`drucker_prager`; or nothing"}});
   return table;
 }
 

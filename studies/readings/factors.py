@@ -32,15 +32,17 @@ factors = [
     _factor("k", "k of eq. 7", "k with the unit that it was used in (5.0e26 per m³, or converted from cm³ by 1e6)", printed={}, millionth={glass + "damage.k": 5e20}),
     _factor("moduli", "E of eq. 10", "whether E of eq. 10 is damaged", damaged={}, undamaged={glass + "decohesion.moduli": "undamaged"}),
     _factor("flow", "flow behind the plane", "whether a localised point flows", yes={}, no={glass + "decohesion.flow_behind_plane": False}),
-    _factor("separated", "separated point", "what a point with λ = 1 bears", faces={}, pressure={glass + "decohesion.separated": "pressure"},
+    _factor("separated", "separated point", "what a point with λ = 1 bears", faces={}, friction={glass + "decohesion.friction": 0.3},
+            pressure={glass + "decohesion.separated": "pressure"}, drucker_prager={glass + "decohesion.separated": "drucker-prager"},
             nothing={glass + "decohesion.separated": "nothing"}),
     _factor("compression", "localises under compression", "where localisation is looked for", yes={}, no={glass + "decohesion.partial_compression": False}),
     _factor("eq18", "pressure in eq. 18", "the sign rule of τ_n in eqs. 15 to 18", no={}, yes={glass + "decohesion.pressure_counts": True}),
     _factor("tau", "τ̄_0", "U_0 in J/m²", onset={}, given={glass + "decohesion.tau_bar_0": griffith}),
     _factor("dilation", "Drucker-Prager flow", "the flow rule", isochoric={}, associated={glass + "drucker_prager.flow": "associated"}),
     _factor("planes", "planes searched", "whether the hoop plane is searched", plane={}, all={glass + "decohesion.plane": "all"}),
-    _factor("transfer", "transfer", "how particles take the nodes' velocities", flip={}, pic={"space.transfer": "pic"}),
-    _factor("contact", "contact", "what separates plate and cylinder", single={}, bodies={"contact.method": "bodies"}),
+    _factor("transfer", "transfer", "how particles take the nodes' velocities", flip={}, a_tenth_of_pic={"space.transfer": {"flip": 0.9}}, pic={"space.transfer": "pic"}),
+    _factor("contact", "contact", "what separates plate and cylinder", single={}, bodies={"contact.method": "bodies"},
+            friction={"contact.method": "bodies", "contact.friction": 0.3}),
 ]
 by_key = {factor.key: factor for factor in factors}
 counts = [len(factor.levels) for factor in factors]

@@ -99,6 +99,12 @@ inline std::vector<NamedMaterial> readings() {
           glass("no flow behind the plane", [](P& p) { p.decohesion->flow_behind_plane = false; }),
           glass("given tau_bar_0", [](P& p) { p.decohesion->tau_bar_0 = 60.0e6; }),
           glass("rubble bears pressure", [](P& p) { p.decohesion->separated = Separated::pressure; }),
+          glass("rubble bears shear",
+                [](P& p) {
+                  p.decohesion->separated = Separated::drucker_prager;
+                  p.drucker_prager->beta = 0.6;
+                }),
+          glass("faces rub", [](P& p) { p.decohesion->friction = 0.3; }),
           glass("rubble bears nothing", [](P& p) { p.decohesion->separated = Separated::nothing; }),
           glass("all at once", [](P& p) {
             p.damage->pressure_wave = true;

@@ -191,6 +191,180 @@ TEST_CASE("rubble bears pressure once its void is closed, or nothing", "[materia
   }
 }
 
+TEST_CASE("rubble that bears shear keeps to q = beta P, and falls apart when it is let go",
+          "[material][decohesion][reading]") {
+  MaterialParameters p = cohesive_glass(5.0e-6);
+  const double beta = 0.6, squeeze = 1e-3, shear = 2e-3;
+  p.drucker_prager =
+      DruckerPragerParameters{43.0e6, beta, true};  // neither its cohesion nor its dilation count
+  p.decohesion->separated = Separated::drucker_prager;
+  const Moduli m = elastic_moduli(p.elastic);
+  const double P = 3.0 * m.bulk * squeeze, borne = beta * P / std::sqrt(3.0),
+               yields = borne / (2.0 * m.shear);
+  const Segment pressed{-squeeze * identity(), 1e-6}, sheared{{0.0, 0.0, 0.0, shear}, 1e-6},
+      released{3.0 * squeeze * identity(), 1e-6};
+  with_every_method(p, {pressed, sheared}, 1, separated_glass(p), [&](const Driven& d) {
+    CHECK(d.state.stress.rz == Approx(borne).epsilon(1e-7));
+    CHECK(trace(d.state.stress) == Approx(-3.0 * P).epsilon(1e-9));
+    CHECK(d.dissipation.plastic == Approx(2.0 * borne * (shear - yields)).epsilon(1e-7));
+    CHECK(d.state.plastic_strain == Approx(std::sqrt(2.0) * (shear - yields)).epsilon(1e-7));
+  });
+  with_every_method(p, {pressed, sheared, released}, 1, separated_glass(p), [&](const Driven& d) {
+    CHECK(norm(d.state.stress) < 1.0);
+    CHECK(d.state.opening_n == Approx(6.0 * squeeze * cell).epsilon(1e-9));
+  });
+  // Closed under more shear than the pressure bears, the stress rises along the surface.
+  const SymmetricTensor oblique{-1e-3, 0.0, 0.0, 1.5e-3};
+  const double asked = 2.0 * m.shear * std::sqrt(1.5) * norm(deviator(oblique)),
+               part = beta * m.bulk * 1e-3 / asked;
+  REQUIRE(part < 1.0);
+  CompositeState loose = separated_glass(p);
+  loose.opening_n = 2e-4 * cell;  // as much strain as a fifth of the path takes
+  for (const int steps : {1, 64})
+    with_every_method(p, {{oblique, 1e-6}}, steps, loose, [&](const Driven& d) {
+      const SymmetricTensor expected =
+          0.8 * (part * 2.0 * m.shear * deviator(oblique) - m.bulk * 1e-3 * identity());
+      CHECK(distance(d.state.stress, expected) < 1e-6 * norm(expected));
+      CHECK(d.count(EventKind::closure) == 1);
+      if (steps > 1)
+        CHECK(d.dissipation.plastic ==
+              Approx(0.64 * m.shear * part * (1.0 - part) * contract(deviator(oblique), deviator(oblique)))
+                  .epsilon(4e-2));
+    });
+}
+
+TEST_CASE("closed faces stick up to Coulomb's cone, and slide on it", "[material][decohesion][reading]") {
+  MaterialParameters p = cohesive_glass(5.0e-6);
+  const double friction = 0.3, squeeze = 1e-3, shear = 2e-3;
+  p.decohesion->friction = friction;
+  const Moduli m = elastic_moduli(p.elastic);
+  const double borne = friction * m.p_wave() * squeeze, yields = borne / (2.0 * m.shear);
+  for (const double side : {1.0, -1.0}) {
+    const Segment pressed{-squeeze * uniaxial, 1e-6}, sheared{{0.0, 0.0, 0.0, side * shear}, 1e-6},
+        back{{0.0, 0.0, 0.0, -side * yields}, 1e-6}, parted{3.0 * squeeze * uniaxial, 1e-6};
+    with_every_method(p, {pressed, sheared}, 1, separated_glass(p), [&](const Driven& d) {
+      CHECK(d.state.stress.rz == Approx(side * borne).epsilon(1e-7));
+      CHECK(d.state.opening_t == Approx(2.0 * side * cell * (shear - yields)).epsilon(1e-7));
+      CHECK(d.dissipation.plastic == Approx(2.0 * borne * (shear - yields)).epsilon(1e-7));
+      CHECK(d.dissipation.total() == d.dissipation.plastic);
+    });
+    with_every_method(p, {pressed, sheared, back}, 1, separated_glass(p), [&](const Driven& d) {
+      CHECK(std::abs(d.state.stress.rz) < 1e-6 * borne);  // sticks: elastic
+      CHECK(d.state.opening_t == Approx(2.0 * side * cell * (shear - yields)).epsilon(1e-7));
+    });
+    // While they part, what friction bears falls with the pressure, and its work is what was stored of shear.
+    with_every_method(p, {pressed, sheared, parted}, 1, separated_glass(p), [&](const Driven& d) {
+      CHECK(std::abs(d.state.stress.rz) < 1.0);
+      CHECK(d.state.opening_n == Approx(2.0 * squeeze * cell).epsilon(1e-9));
+      CHECK(d.state.opening_t == Approx(2.0 * side * cell * shear).epsilon(1e-7));
+      CHECK(d.dissipation.plastic == Approx(2.0 * borne * (shear - 0.5 * yields)).epsilon(1e-6));
+    });
+    // Faces that meet under much shear slide from the first.
+    const SymmetricTensor oblique{-squeeze, 0.0, 0.0, side * shear};
+    CompositeState apart = separated_glass(p);
+    apart.opening_n = 0.2 * squeeze * cell;
+    with_every_method(p, {{oblique, 1e-6}}, 1, apart, [&](const Driven& d) {
+      CHECK(d.state.stress.rz == Approx(0.8 * side * borne).epsilon(1e-7));
+      CHECK(d.dissipation.plastic == Approx(0.64 * borne * (shear - yields)).epsilon(1e-6));
+    });
+  }
+}
+
+TEST_CASE("faces that rub, against a slider in a million steps", "[material][decohesion][reading]") {
+  MaterialParameters p = cohesive_glass(5.0e-6);
+  Random random(17);
+  for (int sample = 0; sample < 6; ++sample) {
+    p.decohesion->friction = random.uniform(0.1, 1.2);
+    const Moduli m = elastic_moduli(p.elastic);
+    const auto path = path_with_reversals(random, 2e-3, 1e4, 4);
+    double gap = 0.0, slip = 0.0, work = 0.0;  // over the length
+    SymmetricTensor total{};
+    constexpr int steps = 200'000;
+    for (const Segment& piece : path)
+      for (int i = 0; i < steps; ++i) {
+        total += (1.0 / steps) * piece.strain;
+        const double pulled = m.stress(total).rr, wide = std::max(0.0, pulled / m.p_wave());
+        const double pressing = std::max(0.0, -pulled), shear = 2.0 * m.shear * total.rz - m.shear * slip;
+        const double held =
+            std::clamp(shear, -p.decohesion->friction * pressing, p.decohesion->friction * pressing);
+        gap = wide, slip += (shear - held) / m.shear, work += held * (shear - held) / m.shear;
+      }
+    with_every_method(p, path, 1, separated_glass(p), [&](const Driven& d) {
+      CAPTURE(sample);
+      CHECK(d.state.opening_n == Approx(cell * gap).margin(1e-9 * cell));
+      CHECK(d.state.opening_t == Approx(cell * slip).margin(1e-7 * cell));
+      CHECK(d.dissipation.plastic == Approx(work).epsilon(1e-3).margin(10.0));
+    });
+  }
+}
+
+TEST_CASE("what a separated point bears turns with it, and its energy is accounted for",
+          "[material][decohesion][reading][energy]") {
+  Random random(5);
+  const auto turned = [](const SymmetricTensor& a, double angle) {  // components in axes turned by -angle
+    const double mean = 0.5 * (a.rr + a.zz), half = 0.5 * (a.rr - a.zz), c = std::cos(2.0 * angle),
+                 s = std::sin(2.0 * angle);
+    return SymmetricTensor{mean + half * c - a.rz * s, mean - half * c + a.rz * s, a.tt, half * s + a.rz * c};
+  };
+  for (const NamedMaterial& reading : readings()) {
+    const DecohesionParameters& decohesion = *reading.parameters.decohesion;
+    if (decohesion.separated == Separated::faces && decohesion.friction == 0.0) continue;
+    const auto material = composite_of(reading.parameters, cell);
+    CAPTURE(reading.name);
+    double residual = 0.0, stored = 0.0;
+    for (int sample = 0; sample < 10; ++sample) {
+      const double angle = random.uniform(-1.5, 1.5);
+      const auto path = path_with_reversals(random, 3e-3, 1e4, 5);
+      auto other = path;
+      for (Segment& piece : other) piece.strain = turned(piece.strain, angle);
+      CompositeState here = at_onset(*material, 0.0, 50.0e6, {}),
+                     there = at_onset(*material, angle, 50.0e6, {});
+      here.decohesion = there.decohesion = 1.0;
+      const auto check = [&](int steps, PointIntegrator* method) {
+        const Driven a = drive(*material, path, steps, here, method),
+                     b = drive(*material, other, steps, there, method);
+        CAPTURE(a.cause, b.cause);
+        REQUIRE((a.cause + b.cause).empty());
+        CHECK(distance(turned(a.state.stress, angle), b.state.stress) < 1e3);
+        CHECK(a.dissipation.total() == Approx(b.dissipation.total()).epsilon(1e-5).margin(1e-3));
+        CHECK(a.least_dissipation >= -1e-9 * (1.0 + a.dissipation.total()));
+        return a;
+      };
+      for (LocalSolver& solver : solvers(1e-9)) {
+        CAPTURE(solver.name, sample);
+        check(2, solver.integrator.get());
+      }
+      const Driven fine = check(2000, nullptr);
+      const double now = material->stored_energy(fine.state);
+      residual += std::abs(fine.work - fine.dissipation.total() - now);
+      stored += now + fine.dissipation.total();
+    }
+    CAPTURE(residual, stored);
+    CHECK(residual <= 2e-3 * stored);
+  }
+}
+
+TEST_CASE("what a separated point bears at the ends of what its keys admit",
+          "[material][decohesion][reading][extreme]") {
+  Random random(23);
+  for (const double extreme : {1e-6, 1e-2, 1.0, 100.0})
+    for (const bool rubble : {false, true}) {
+      MaterialParameters p = glass_with([&](MaterialParameters& g) {
+        g.decohesion->separated = rubble ? Separated::drucker_prager : Separated::faces;
+        g.decohesion->friction = rubble ? 0.0 : extreme;
+        g.drucker_prager->beta = rubble ? extreme : 1.8;
+      });
+      for (const double size : {1e-12, 1e-3, 0.3}) {
+        const auto path = path_with_reversals(random, size, 1e4, 6);
+        CAPTURE(extreme, rubble, size);
+        with_every_method(p, path, 2, separated_glass(p), [&](const Driven& d) {
+          CHECK(is_finite(d.state));
+          CHECK(d.least_dissipation >= 0.0);
+        });
+      }
+    }
+}
+
 TEST_CASE("solvers agree on random paths whatever the reading, and the closed form approaches them",
           "[material][decohesion][reading][local]") {
   for (const NamedMaterial& reading : readings()) {
