@@ -6,16 +6,27 @@ from study.results import Study
 
 @dataclass(frozen=True)
 class Treatment:
-    """How the equations are integrated. `resolved`: the step or tolerance follows the fastest waves."""
+    """How the equations are integrated, and under which reading of the model. `method`: the same under every reading. `resolved`: the step or tolerance follows the
+    fastest waves. `probe`: it stands beside (b), and tells what a ring or the cell are worth."""
     key: str
     label: str
-    resolved: bool
+    method: str
+    alternative: bool = False
+
+    @property
+    def resolved(self):
+        return not self.method.startswith("a-")
+
+    @property
+    def probe(self):
+        return self.method in ("moved", "fine")
 
 
 def read(out):
     """The study, and the names of its cases by (radius in mm, speed in m/s, treatment)."""
     study = Study(out)
-    treatments = {key: Treatment(key, title, not key.startswith("a-")) for key, title in study.plan["titles"].items()}
+    variants = study.plan["variants"]
+    treatments = {key: Treatment(key, title, variants.get(key, {"of": key})["of"], key in variants) for key, title in study.plan["titles"].items()}
     points: list[tuple[int, int]] = [(round(1e3 * point["parameters.R"]), round(point["parameters.v"])) for point in study.plan["points"]]
     found: dict[tuple[int, int, Treatment], str] = {}
     for name in study.named_any("rung"):

@@ -15,11 +15,11 @@ drawn = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks":
 
 
 def pictures(outcomes, folder):
-    """In the manner of the paper's figures at its times, as far as a run came: all kinds of the resolved run, the snapshots of the paper's step.
+    """In the manner of the paper's figures at its times, as far as a run came: all kinds of the resolved run of either reading, the snapshots of the paper's step.
     `outcomes`: by ((radius, speed), treatment)."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):
         for (case, treatment), outcome in outcomes.items():
-            for kind in {"b": drawn, "a-usf": ["snapshots"]}.get(treatment, []) if case in shown else []:
+            for kind in {"b": drawn, "alternative-b": drawn, "a-usf": ["snapshots"]}.get(treatment, []) if case in shown else []:
                 run, name = outcome.results, f"R{case[0]}-v{case[1]}-{treatment}-{kind}"
                 reached = [1e-6 * time for time in shown[case] if 1e-6 * time <= run.frames[-1].time + 1e-9] or [run.frames[-1].time]
                 figure = drawn[kind](run, run.frames_at(reached))
@@ -102,7 +102,7 @@ def energies(histories, title, folder, name):
         account = history.outcome.results.columns("energy")
         start = account["kinetic"][0] + account["elastic"][0]
         error = np.abs(account["residual"]) / start
-        axes.semilogy(1e6 * account["time"], np.where(error > 1e-6, error, np.nan), color=colours[n], linestyle=["-", "--", "-."][n % 3], label=label)
+        axes.semilogy(1e6 * account["time"], np.where(error > 1e-6, error, np.nan), color=colours[n % len(colours)], linestyle=["-", "--", "-."][n % 3], label=label)
     axes.axhline(1.0, color="black", linewidth=0.8, linestyle=":")
     axes.set_ylim(1e-5, 1e4)
     axes.set_xlabel("time (µs)")

@@ -172,6 +172,26 @@ def made_energy(sentence, runs):
     return max((runs[case].made_energy(sentence.until) for case in sentence.needs), key=abs)
 
 
+def turns_with(verdicts):
+    """What a statement's verdict turns with, of `verdicts` by (alternative reading, method): the reading, the step (or the method that chooses it), the cell, and
+    chance, the ring that particles moved by 0.02 cells make. A blow-up counts as the text says: what the step makes of the statement is the question.
+
+    >>> turns_with({(False, "b"): "no", (True, "b"): "yes", (False, "moved"): "no", (True, "a-usf"): "blown up"})
+    ['reading']
+    >>> turns_with({(False, "b"): "no", (False, "moved"): "yes"}), turns_with({(False, "b"): "no", (False, "fine"): "no"}), turns_with({(False, "b"): "–"})
+    (['chance'], ['none'], [])
+    """
+    held = {key: verdict != "no" for key, verdict in verdicts.items() if verdict != "–"}
+    base = {reading: held[reading, "b"] for reading in (False, True) if (reading, "b") in held}
+    if not base:
+        return []
+    causes = {"reading"} if len(set(base.values())) == 2 else set()
+    for (reading, method), verdict in held.items():
+        if reading in base and verdict != base[reading]:
+            causes.add({"moved": "chance", "fine": "cell"}.get(method, "step"))
+    return [cause for cause in ("reading", "step", "cell", "chance") if cause in causes] or ["none"]
+
+
 def overall(verdicts):
     """Of (resolved, verdict) pairs, one for each treatment."""
     def of(kind):

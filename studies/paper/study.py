@@ -4,7 +4,7 @@ import sys
 from paper.cases import read
 from paper.figures import energies, fronts, pictures, shown, space_time
 from paper.history import History
-from paper.sentences import judge, made_energy, overall, sentences
+from paper.sentences import judge, made_energy, overall, sentences, turns_with
 from study import plan as plans
 from study.case import as_typed
 from study.command import main
@@ -37,27 +37,43 @@ def _case_row(radius, speed, treatment, history):
 def _sentence_rows(histories, treatments):
     for sentence in sentences:
         row = {"sentence": sentence.key, "case": sentence.case, "text": sentence.text, "criterion": sentence.criterion}
-        verdicts = []
+        verdicts, by_reading = [], {}
         for treatment in treatments:
             runs = {key[:2]: history for key, history in histories.items() if key[2] == treatment}
             found, verdict = judge(sentence, runs)
-            verdicts.append((treatment.resolved, verdict))
+            by_reading[treatment.alternative, treatment.method] = verdict
+            if not treatment.alternative and not treatment.probe:
+                verdicts.append((treatment.resolved, verdict))
             row |= {f"{treatment.key}": verdict, f"{treatment.key} found": found,
                     f"{treatment.key} energy made": made_energy(sentence, runs) if verdict not in ("–",) else None}
-        yield row | {"overall": overall(verdicts)}
+        yield row | {"overall": overall(verdicts), "turns with": ", ".join(turns_with(by_reading)) or "–"}
+
+
+def _verdict_cell(row, key):
+    error = row[f"{key} energy made"]
+    if error is None:
+        return row[f"{key} found"] or "–"
+    amount = f"{number(100 * error, 2)} %" if abs(error) < 10 else f"× {number(error, 1)}"
+    return f"{row[key]}: {row[f'{key} found']} ({amount})"
 
 
 def _sentence_table(rows, treatments):
-    def cell(row, key):
-        error = row[f"{key} energy made"]
-        if error is None:
-            return row[f"{key} found"] or "–"
-        amount = f"{number(100 * error, 2)} %" if abs(error) < 10 else f"× {number(error, 1)}"
-        return f"{row[key]}: {row[f'{key} found']} ({amount})"
-
+    treatments = [treatment for treatment in treatments if not treatment.alternative and not treatment.probe]
     header = ["", "case", "the paper says", "counts as the same", *[treatment.label for treatment in treatments], "in all"]
     return markdown(header, [[row["sentence"], row["case"], f"“{row['text']}”", row["criterion"],
-                              *[cell(row, treatment.key) for treatment in treatments], f"**{row['overall']}**"] for row in rows])
+                              *[_verdict_cell(row, treatment.key) for treatment in treatments], f"**{row['overall']}**"] for row in rows])
+
+
+def _reading_table(rows, treatments):
+    """Both readings side by side."""
+    shown_methods = [key for key in ("b", "alternative-b", "alternative-c-1e-2", "alternative-a-usf") if any(treatment.key == key for treatment in treatments)]
+    names = {"b": "reference", "alternative-b": "alternative", "alternative-c-1e-2": "alternative, ERK 3", "alternative-a-usf": "alternative, USF 0.2 µs"}
+
+    def causes(row):
+        return f"**{row['turns with']}**" + (" (one ring)" if "chance" in row["turns with"] else "")
+
+    return markdown(["", "the paper says", *[names[key] for key in shown_methods], "turns with"],
+                    [[row["sentence"], f"“{row['text']}”", *[_verdict_cell(row, key) for key in shown_methods], causes(row)] for row in rows])
 
 
 def _case_table(rows, labels):
@@ -82,10 +98,10 @@ def report(quick, out):
 
     figures = out / "figures"
     for radius, speed in {key[:2] for key in every} & set(shown):
-        runs = {treatment.label: histories[radius, speed, treatment] for treatment in treatments}
+        runs = {treatment.label: histories[radius, speed, treatment] for treatment in treatments if not treatment.probe}
         space_time(runs, f"R = {radius} mm, {speed} m/s", figures, f"space-time-R{radius}-v{speed}")
         energies(runs, f"R = {radius} mm, {speed} m/s", figures, f"energy-R{radius}-v{speed}")
-    resolved = [treatment for treatment in treatments if treatment.resolved and treatment.key in ("b", "c-1e-3", "c-1e-2")][:3]
+    resolved = [treatment for treatment in treatments if treatment.key in ("b", "c-1e-2", "alternative-b")]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
     pictures({(key[:2], key[2].key): history.outcome for key, history in histories.items()}, figures)
@@ -101,8 +117,14 @@ def _page_values(study, every, histories, rows, case_rows, treatments, quick):
     labels = {treatment.key: treatment.label for treatment in treatments}
     counts = {verdict: [row["sentence"] for row in rows if row["overall"] == verdict] for verdict in
               ("reproduced", "depends on the integration", "only with an unresolved step", "only after a blow-up", "not reproduced", "undecided")}
-    resolved = [row for row in case_rows if next(t for t in treatments if t.key == row["treatment"]).resolved]
-    unresolved = [row for row in case_rows if row not in resolved]
+    by_key = {treatment.key: treatment for treatment in treatments}
+    own = [row for row in case_rows if not by_key[row["treatment"]].alternative]
+    resolved = [row for row in own if by_key[row["treatment"]].resolved]
+    unresolved = [row for row in own if row not in resolved]
+    other = [row for row in case_rows if by_key[row["treatment"]].alternative and by_key[row["treatment"]].resolved]
+    variant = next(iter(study.plan["variants"].values()))
+    causes = {cause: [row["sentence"] for row in rows if cause in row["turns with"]] for cause in ("reading", "step", "cell", "chance", "none", "–")}
+    wins = {key: [row["sentence"] for row in rows if row.get(key) == "yes"] for key in ("b", "alternative-b")}
     decohesion = [row["first_decohesion_us"] for row in resolved if row["speed"] == 200]
     first = plans.case(study.plan, next(case for key, case in every.items() if key[2].key == "b"))
     radii, speeds = (sorted({key[n] for key in every}) for n in (0, 1))
@@ -123,7 +145,13 @@ def _page_values(study, every, histories, rows, case_rows, treatments, quick):
         "unresolved_blown": sum(abs(row["residual"]) > 0.05 for row in unresolved),
         "earliest_decohesion": number(min(decohesion), 3), "latest_decohesion": number(max(decohesion), 3),
         "farthest_resolved": number(max(row["damage_front_mm"] for row in resolved)),
-        "farthest_severe": number(1e3 * max(history.separation_front[-1] for key, history in histories.items() if key[2].resolved)),
+        "farthest_severe": number(1e3 * max(history.separation_front[-1] for key, history in histories.items() if key[2].resolved and not key[2].alternative)),
+        "readings": _reading_table(rows, treatments),
+        "causes": markdown(["turns with", "statements", "which"], [[cause, len(keys), ", ".join(keys) or "–"] for cause, keys in causes.items() if keys or cause != "–"]),
+        "alternative": variant["title"], "alternative_settings": f"`{plans.typed(variant['set'])}`",
+        "reference_hits": len(wins["b"]), "alternative_hits": len(wins["alternative-b"]),
+        "gained": ", ".join(key for key in wins["alternative-b"] if key not in wins["b"]) or "none", "lost": ", ".join(key for key in wins["b"] if key not in wins["alternative-b"]) or "none",
+        "alternative_worst": number(100 * max(abs(row["residual"]) for row in other), 2),
         "command": as_typed(first),
     }
 

@@ -95,7 +95,7 @@ def _only(reader, quick_table):
 def _settings(table):
     """(words of `fault` before the key, settings) of all in the file that changes the scene."""
     yield from (("set|", table.get("set", {})), ("vary|", table.get("vary", {})), ("quick|", table.get("quick", {}).get("set", {})), ("quick|", table.get("quick", {}).get("vary", {})))
-    for name in ("method", "reference"):
+    for name in ("method", "variant", "reference"):
         for n, item in enumerate(table.get(name, [])):
             for each in (item, *item.get("rung", [])):
                 yield from ((f"{name}.{n}|", each.get(key, {})) for key in ("set", "ladder", "each", "tight"))

@@ -1,5 +1,5 @@
 """The methods of a study file: each a ladder of rungs, from loose to tight."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 _falling = ("courant", "step", "fixed_step", "max_step", "rtol", "atol", "cell")  # the less, the tighter
 
@@ -16,12 +16,14 @@ class Rung:
 @dataclass(frozen=True)
 class Method:
     """`rungs` from loose to tight; `tight`: settings of a run of the same kind that the others are measured against besides the references; `only`: points at which it
-    is asked for, as lists of varied values."""
+    is asked for, as lists of varied values; `variant`: the table of the variant that it belongs to, `of`: the method that this repeats."""
     name: str
     rungs: tuple
     title: str = ""
     tight: dict | None = field(hash=False, default=None)
     only: dict = field(hash=False, default_factory=dict)
+    variant: dict = field(hash=False, default_factory=dict)
+    of: str = ""
 
     def at(self, point):
         return all(point.get(key) in values for key, values in self.only.items())
@@ -58,6 +60,21 @@ def _each(reader, prefix, item):
     return [{**item, "name": item["name"].replace("{}", _text(value)), "set": {**item.get("set", {}), key: value}} for value in values]
 
 
+def _variants(reader, methods):
+    """Methods once more with other settings of the scene, named VARIANT-METHOD: those that `methods` names, or all."""
+    found, known = [], {method.name: method for method in methods}
+    for prefix, item in reader.tables("variant", ("name", "set")):
+        title = item.get("title", item["name"])
+        for name in item.get("methods", list(known)):
+            if name not in known:
+                raise reader.fault(prefix + "methods", f"found {name!r}, expected some of {', '.join(known)}")
+            method = known[name]
+            rungs = tuple(replace(rung, settings={**rung.settings, **item["set"]}) for rung in method.rungs)
+            found.append(replace(method, name=f"{item['name']}-{name}", rungs=rungs, title=f"{method.title}, {title}",
+                                 tight=method.tight and {**method.tight, **item["set"]}, variant=item, of=name))
+    return found
+
+
 def read_methods(reader, quick):
     """A quick study takes the rungs that `quick` counts from 0, or the first two; of none the method is left out."""
     found = []
@@ -66,6 +83,7 @@ def read_methods(reader, quick):
         if any(not isinstance(n, int) or not 0 <= n < len(rungs) for n in item.get("quick", [])):
             raise reader.fault(prefix + "quick", f"found {chosen}, expected numbers of rungs from 0 to {len(rungs) - 1}")
         found.append(Method(item["name"], tuple(rungs[n] for n in chosen if n < len(rungs)) if quick else rungs, item.get("title", item["name"]), item.get("tight"), item.get("only", {})))
+    found += _variants(reader, found)
     names = [method.name for method in found]
     if len(set(names)) < len(names):
         raise reader.fault("method", f"found two methods of one name among {', '.join(names)}")

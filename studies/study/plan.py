@@ -88,7 +88,8 @@ def make(path, quick):
             _bars(study, study.sweep_bars, add, n, point)
     return {"file": str(study.path), "title": study.title, "scene": str(study.scene), "kinds": study.kinds, "points": grid(study.vary) if study.vary else [],
             "varied": list(study.vary), "sweep_bars": study.sweep_bars, "repeats": study.repeats, "converged": study.converged, "members": study.members, "longest": study.longest,
-            "titles": {method.name: method.title for method in study.methods}, "quantities": [vars(each) for each in study.quantities] if study.quantities else None,
+            "titles": {method.name: method.title for method in study.methods}, "variants": {method.name: {**method.variant, "of": method.of} for method in study.methods if method.variant},
+            "quantities": [vars(each) for each in study.quantities] if study.quantities else None,
             "resolved": study.resolved, "inputs": inputs(study.scene, [case["settings"] for case in cases.values()]), "cases": cases}
 
 

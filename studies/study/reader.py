@@ -6,9 +6,9 @@ import tomllib
 
 from study.outcome import StudyError
 
-_keys: dict[str, dict[str, type]] = {"": {"title": str, "scene": str, "set": dict, "vary": dict, "method": list, "reference": list, "ensemble": dict, "quantity": list, "report": dict, "quick": dict, "longest": float},
+_keys: dict[str, dict[str, type]] = {"": {"title": str, "scene": str, "set": dict, "vary": dict, "method": list, "variant": list, "reference": list, "ensemble": dict, "quantity": list, "report": dict, "quick": dict, "longest": float},
          "method": {"name": str, "title": str, "each": dict, "set": dict, "ladder": dict, "rung": list, "tight": dict, "only": dict, "quick": list}, "rung": {"name": str, "set": dict, "members": int},
-         "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float}, "quantity": {"name": str, "from": str, "scale": float, "unit": str},
+         "variant": {"name": str, "title": str, "set": dict, "methods": list}, "reference": {"name": str, "set": dict}, "ensemble": {"members": int, "amplitude": float}, "quantity": {"name": str, "from": str, "scale": float, "unit": str},
          "report": {"kinds": list, "sweep_bars": list, "trade_points": bool, "repeats": int, "converged": float}, "quick": {"set": dict, "vary": dict, "members": int}}
 _least: dict[tuple[str, str], int] = {("", "longest"): 0, ("quantity", "scale"): 0, ("ensemble", "members"): 2, ("ensemble", "amplitude"): 0, ("report", "repeats"): 1, ("report", "converged"): 0,
           ("quick", "members"): 2, ("rung", "members"): 1}  # 0: more than that

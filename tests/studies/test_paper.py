@@ -8,15 +8,16 @@ class Paper(StudyTest):
     study = "paper"
 
     def test_files(self):
-        self.assert_figures("space-time-R200-v200", "energy-R200-v200", "fronts", "R200-v200-b-snapshots", "R200-v200-b-damage", "R200-v200-b-cracks", "R200-v200-b-fragments", "R200-v200-b-fragment-masses")
-        self.assert_page("no fragmentation occurs at time t = 50", "Sentence by sentence", "They end at 60 µs", "up to 60 µs", "2 of its nine cases",
+        self.assert_figures("space-time-R200-v200", "energy-R200-v200", "fronts", "R200-v200-b-snapshots", "R200-v200-b-damage", "R200-v200-b-cracks", "R200-v200-b-fragments", "R200-v200-b-fragment-masses",
+                            "R200-v200-alternative-b-snapshots", "R200-v200-alternative-b-damage", "R200-v200-alternative-b-opening", "R200-v200-alternative-b-cracks")
+        self.assert_page("no fragmentation occurs at time t = 50", "Sentence by sentence", "Two readings side by side", "material.glass.damage.k=5e+20", "They end at 60 µs", "up to 60 µs", "2 of its nine cases",
                          "A Rate-Dependent Damage/Decohesion Model for Simulating Glass Fragmentation under Impact using the Material Point Method")
         self.assert_page_does_not_state("600 µs.", "R = 400 mm", "The nine cases", "CVODE")
 
     def test_cases(self):
         rows = {(row["speed"], row["treatment"]): row for row in
                 self.table("cases", ["radius_mm", "status", "max_growth", "residual", "first_decohesion_us", "front_speed", "perforated"])}
-        self.assertEqual(len(rows), 8)
+        self.assertEqual(len(rows), 18)  # five treatments of the reference reading and four of the alternative, at two speeds
         for speed in (200.0, 800.0):
             for resolved in ("b", "c-1e-2"):
                 row = rows[speed, resolved]
@@ -38,6 +39,11 @@ class Paper(StudyTest):
         self.assertEqual(rows["S1"]["overall"], "not reproduced")  # there are fragments at 50 us
         self.assertEqual(rows["S9"]["b"], "yes")  # perforation at 800 m/s
         self.assertEqual(rows["S15"]["overall"], "undecided")  # R = 400 mm is not in the quick study
+        self.assertEqual(rows["S15"]["turns with"], "\u2013")
+        # Glass that is ten times as strong is whole at 50 us.
+        self.assertEqual((rows["S1"]["b"], rows["S1"]["alternative-b"]), ("no", "yes"))
+        self.assertIn("reading", rows["S1"]["turns with"])
+        self.assertEqual(rows["S9"]["turns with"], "none")
 
 
 if __name__ == "__main__":

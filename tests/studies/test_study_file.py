@@ -93,6 +93,32 @@ sweep_bars = ["time", "space"]
             self.assertEqual(refined["half the step"]["integrator.step"], 0.5 * point["integrator.step"])
             self.assertEqual(refined["half the step"]["space.cell"], point["space.cell"])
 
+    def test_variants_repeat_methods_with_other_settings(self):
+        text = f"""
+scene = "{blocks}"
+[[method]]
+name = "musl"
+title = "MUSL"
+set = {{"integrator.scheme" = "musl"}}
+[[method]]
+name = "usf"
+quick = []
+[[variant]]
+name = "coarse"
+set = {{"space.cell" = 2e-3}}
+[report]
+kinds = ["methods"]
+"""
+        made = plan.make(self.write(text), False)
+        found = {case["method"]: case["settings"] for case in made["cases"].values()}
+        self.assertEqual(set(found), {"musl", "usf", "coarse-musl", "coarse-usf"})
+        self.assertEqual(found["coarse-musl"], {"integrator.scheme": "musl", "space.cell": 2e-3})
+        self.assertEqual(made["titles"]["coarse-musl"], "MUSL, coarse")
+        self.assertEqual(made["variants"]["coarse-usf"], {"name": "coarse", "set": {"space.cell": 2e-3}, "of": "usf"})
+        self.assertEqual({case["method"] for case in plan.make(self.write(text), True)["cases"].values()}, {"musl", "coarse-musl"})
+        with self.assertRaisesRegex(StudyError, "key 'variant.0.methods': found 'mussel', expected some of musl, usf"):
+            file.read(self.write(text.replace('name = "coarse"', 'name = "coarse"\nmethods = ["mussel"]')))
+
     def test_cases_of_the_same_settings_share_a_run(self):
         cases = plan.make(self.write(f"""
 scene = "{blocks}"
