@@ -36,7 +36,7 @@ void BodyHistory::tell(const System& system) {
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     const Body& body = system.bodies[n];
     const BodyMotion motion = motion_of(body, whole);
-    const FailedParticles failed = failed_particles(body);
+    const Failed failed = failed_part(body, whole);
     std::size_t pieces = 1;
     double largest = motion.mass;
     if (failed.separated > 0) {
@@ -45,7 +45,7 @@ void BodyHistory::tell(const System& system) {
     }
     table_.row(system.time, body.name, motion.momentum[0], motion.momentum[1], motion.centre[0],
                motion.centre[1], motion.kinetic, whole * stored_energy(body), failed.localised,
-               failed.separated, pieces, largest);
+               failed.separated, pieces, largest, failed.crack_area, failed.volume);
   }
 }
 

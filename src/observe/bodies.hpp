@@ -29,7 +29,9 @@ class BodyHistory final : public Observer {
       {"localised", "1", "localised particles"},
       {"separated", "1", "separated particles"},
       {"fragments", "1", "connected pieces; 1 as long as nothing has separated"},
-      {"largest_fragment", "kg", "mass of the largest piece", true}};
+      {"largest_fragment", "kg", "mass of the largest piece", true},
+      {"crack_area", "m^2", "area of cracks, localised or separated: sum of V0/L_e", true},
+      {"localised_volume", "m^3", "volume of the localised particles", true}};
   static constexpr TableInfo table_info{
       "bodies", "a row for each body at each time of `output.history_every`", columns};
   static std::unique_ptr<Observer> make(const Scene& scene, const System& system);

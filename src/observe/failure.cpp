@@ -48,12 +48,13 @@ std::array<double, 2> mean_velocity(const Body& body) {
 
 }  // namespace
 
-FailedParticles failed_particles(const Body& body) {
-  FailedParticles failed;
+Failed failed_part(const Body& body, double whole) {
+  Failed failed;
   const auto &length = body.column("effective_length"), &decohesion = body.column("decohesion");
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
-    ++failed.localised;
+    const double volume = whole * body.particles.mass[i] / body.material->density();
+    ++failed.localised, failed.volume += volume, failed.crack_area += volume / length[i];
     if (decohesion[i] >= 1.0) ++failed.separated;
   }
   return failed;
@@ -61,12 +62,12 @@ FailedParticles failed_particles(const Body& body) {
 
 namespace {
 
-/// Counts, areas, fronts and openings of a body; `first_*` are left to the caller. whole: how much of the
-/// body a particle's mass counts for (2 pi in axisymmetric scenes).
+/// Counts, areas, fronts and openings of a body; `first_*` are left to the caller.
 FailureMeasures measure(const Body& body, double whole) {
   FailureMeasures m;
-  const FailedParticles failed = failed_particles(body);
+  const Failed failed = failed_part(body, whole);
   m.localised = failed.localised, m.separated = failed.separated;
+  m.crack_area = failed.crack_area, m.localised_volume = failed.volume;
   const auto raise = [](std::optional<double>& to, double value) { to = to ? std::max(*to, value) : value; };
   const Particles& p = body.particles;
   const auto& length = body.column("effective_length");
@@ -74,8 +75,6 @@ FailureMeasures measure(const Body& body, double whole) {
   for (std::size_t i = 0; i < length.size(); ++i) {
     if (!(length[i] > 0.0)) continue;
     const double radius = std::abs(p.position[0][i]), opening = std::hypot(opening_n[i], opening_t[i]);
-    const double volume = whole * p.mass[i] / body.material->density();
-    m.localised_volume += volume, m.crack_area += volume / length[i];
     raise(m.localised_radius_max, radius);
     if (!m.max_opening || opening > *m.max_opening) m.max_opening = opening, m.max_opening_radius = radius;
   }

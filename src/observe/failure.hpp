@@ -8,10 +8,13 @@
 
 namespace vitrum {
 
-struct FailedParticles {
-  std::size_t localised = 0, separated = 0;
+/// How much of a body has failed.
+struct Failed {
+  std::size_t localised = 0, separated = 0;  ///< particles
+  double crack_area = 0.0, volume = 0.0;     ///< sums of V0/L_e and V0 of the localised, SI
 };
-FailedParticles failed_particles(const Body& body);
+/// whole: how much of the body a particle's mass counts for (2 pi in axisymmetric scenes).
+Failed failed_part(const Body& body, double whole);
 
 /// Follows failure through a run: first events as they happen, fronts and fragments on demand.
 class FailureAnalysis final : public Observer {

@@ -133,8 +133,10 @@ class Histories(CommandLineTest):
             told = summary["bodies"][row["body"]]
             for name, value in (("momentum_r", told["momentum"][0]), ("momentum_z", told["momentum"][1]),
                                 ("centre_r", told["centre"][0]), ("centre_z", told["centre"][1]), ("kinetic", told["kinetic"]),
-                                ("localised", told["localised"]), ("separated", told["separated"]), ("fragments", told["fragments"])):
+                                ("localised", told["localised"]), ("separated", told["separated"]), ("fragments", told["fragments"]),
+                                ("crack_area", told["crack_area"]), ("localised_volume", told["localised_volume"])):
                 self.assertEqual(float(row[name]), value, name)
+        self.assertGreater(float(rows[-2]["crack_area"]), 0.0)
         largest = max(float(row["largest_fragment"]) for row in rows[-2:])
         self.assertAlmostEqual(largest / summary["failure"]["fragments"]["largest_mass"], 1.0, 12)
         self.assertAlmostEqual(sum(float(row["elastic"]) for row in rows[-2:]) / summary["energy"]["elastic"], 1.0, 9)
