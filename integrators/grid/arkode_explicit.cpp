@@ -77,6 +77,11 @@ ArkSolver::Step ArkodeExplicit::attempt(double target) {
   }
 }
 
+std::string ArkodeExplicit::advice_on_loss(const System& system, double step, double /*lost*/) const {
+  if (settings_.table.order != 3) return advice(system, step);
+  return "order 3 damps short waves: try integrator.order = 4, or " + advice(system, step).substr(4);
+}
+
 void ArkodeExplicit::fail(const System& system, const ArkSolver::Step& step) {
   const double critical = particles_->stable_step(system.time, solver_->y());
   std::string cause = "the right-hand side cannot be evaluated there";

@@ -14,6 +14,7 @@ class ArkodeExplicit final : public AdaptiveIntegrator {
   explicit ArkodeExplicit(const AdaptiveSettings& settings) : AdaptiveIntegrator(settings) {}
 
   bool advance(System& system, double target, StepObserver& observer) override;
+  std::string advice_on_loss(const System& system, double step, double lost) const override;
 
  private:
   void prepare(System& system);

@@ -25,6 +25,7 @@ class ArkodeImplicit final : public AdaptiveIntegrator {
       : AdaptiveIntegrator(settings), remap_(remap), linear_(linear) {}
 
   bool advance(System& system, double target, StepObserver& observer) override;
+  std::string advice_on_loss(const System& system, double step, double lost) const override;
 
  private:
   void prepare(System& system);

@@ -78,6 +78,10 @@ class GridIntegrator {
   virtual double tolerated_energy(const System& /*system*/) const { return 0.0; }
   /// What to try when a run has become unstable. step: s, the last one.
   virtual std::string advice(const System& system, double step) const = 0;
+  /// What to try when a run has lost energy. lost: J (per radian or per metre).
+  virtual std::string advice_on_loss(const System& system, double step, double /*lost*/) const {
+    return advice(system, step);
+  }
 };
 
 }  // namespace vitrum

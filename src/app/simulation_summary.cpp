@@ -92,14 +92,12 @@ Warnings Simulation::closing_warnings(const output::RunSummary& s) const {
     list.push_back(fmt::format("the energy account has no meaning (residual {:.3g} %): the run has blown up",
                                100.0 * residual));
   else if (account == EnergyAccount::open)
-    list.push_back(
-        fmt::format("the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
-                    residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
-                    s.remap_loss > 0.5 * s.energy.residual() && s.remap_loss > 0.0
-                        ? "most of it at remaps: try a larger integrator.remap_travel or remap_strain (a "
-                          "longer remap, if it is given), fewer outputs (each ends a phase), more "
-                          "particles a cell, or integrator.method = \"arkode-explicit\""
-                        : integrator_->advice(system_, state_.last_step)));
+    list.push_back(fmt::format(
+        "the numerics {} {:.1f} % of the energy: the steps do not resolve this run; {}",
+        residual < 0.0 ? "made" : "lost", 100.0 * std::abs(residual),
+        residual < 0.0
+            ? integrator_->advice(system_, state_.last_step)
+            : integrator_->advice_on_loss(system_, state_.last_step, s.energy.residual() / whole_)));
   if (system_.contact) warn_of_depth(system_, list);
   // (With one particle a cell what is left of waves is no larger.)
   constexpr double much = 0.05;

@@ -11,10 +11,11 @@ namespace {
 
 constexpr std::size_t rows_of_a_chunk = 512;
 
-/// Whether a particle is strained so much that its place matters to its forces.
-bool is_lumped(const Particles& p, std::size_t i) {
-  const auto& e = p.elastic_strain;
-  return norm({e[0][i], e[1][i], e[2][i], e[3][i]}) > ConsistentMass::lumped_beyond;
+/// The share of a particle's mass that is lumped: its place matters to its forces as far as it is pressed.
+double lumped_share(const Particles& p, std::size_t i) {
+  const double pressed = largest_principal(-1.0 * tensor_at(p.elastic_strain, i));
+  constexpr double from = ConsistentMass::lumped_from, width = ConsistentMass::lumped_at - from;
+  return std::clamp((pressed - from) / width, 0.0, 1.0);
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ void ConsistentMass::assemble(const System& system, const NodalUnknowns& unknown
   dispatch(grid, [&]<ShapeKind kind, bool>() {
     for_stencils<kind>(system, [&](std::size_t body, std::size_t i, const auto& stencil) {
       const Particles& p = system.bodies[body].particles;
-      const bool lumped = is_lumped(p, i);
+      const double lumped = lumped_share(p, i), carried = 1.0 - lumped;
       for (const StencilNode& a : stencil)
         for (std::size_t c = 0; c < 2 && a.node >= 0; ++c) {
           const std::int32_t row = unknowns.number[2 * static_cast<std::size_t>(a.node) + c];
@@ -64,11 +65,11 @@ void ConsistentMass::assemble(const System& system, const NodalUnknowns& unknown
             entry.unknown = column, entry.mass += mass;
           };
           const double share = a.parity[c] * a.value * p.mass[i];
-          if (lumped) add(offset_between(a, a), row, a.value * p.mass[i]);
+          if (lumped > 0.0) add(offset_between(a, a), row, lumped * a.value * p.mass[i]);
           for (const StencilNode& b : stencil) {
             const std::int32_t column =
                 b.node < 0 ? -1 : unknowns.number[2 * static_cast<std::size_t>(b.node) + c];
-            if (column >= 0) add(offset_between(a, b), column, lumped ? 0.0 : share * b.parity[c] * b.value);
+            if (column >= 0) add(offset_between(a, b), column, carried * share * b.parity[c] * b.value);
           }
         }
       if (!held_.empty()) add_held(unknowns, grid, stencil, p.mass[i], {p.velocity[0][i], p.velocity[1][i]});

@@ -12,12 +12,13 @@ namespace vitrum::mpm {
 /// What the particles weigh where nodes move them, M_ij = sum m_p N_i N_j over the nodal unknowns and, where
 /// boundaries are driven, between these and held nodes. Particles that take the velocity changes q of nodes,
 /// v_p += sum N_i q_i, gain p.q + q.M.q / 2 of kinetic energy, with p the momenta of nodes. Of particles that
-/// bear large strains M has the sums of rows on its diagonal instead: what they gain less is lost
-/// (docs/theory.md 2.5).
+/// are pressed far, M has a share of the sums of rows on its diagonal instead: what they gain less is lost
+/// (docs/theory/adaptive.md).
 class ConsistentMass {
  public:
-  /// Norm of the elastic strain.
-  static constexpr double lumped_beyond = 0.06;
+  /// Elastic compressions, in the direction that is pressed most, from which on a share of a particle's mass
+  /// is lumped, and all of it.
+  static constexpr double lumped_from = 0.06, lumped_at = 0.15;
 
   /// For the particles' present positions and velocities and the grid's present masses.
   void assemble(const System& system, const NodalUnknowns& unknowns);

@@ -139,9 +139,8 @@ TEST_CASE("Three bodies of random shapes meet and part: momentum, energy, fricti
   Random random(53);
   for (const Integrator& integrator : five_integrators)
     for (int repeat = 0; repeat < (integrator.name == "arkode-implicit" ? 1 : 3); ++repeat) {
-      if (integrator.name == "usl") continue;  // no step is stable where an edge leaves a node nearly empty
       MpmScene scene = three_bodies(random, integrator);
-      if (integrator.name == "arkode-explicit") continue;  // at its default tolerance it loses up to a tenth
+      if (integrator.name == "arkode-explicit") scene.pace = "order = 4";  // order 3: up to a tenth is damped
       CAPTURE(integrator.name, repeat, scene.tables);
       MpmRun run(scene);
       const std::array<double, 2> momentum = total_momentum(run.system);
@@ -160,8 +159,9 @@ TEST_CASE("Three bodies of random shapes meet and part: momentum, energy, fricti
       for (const std::size_t c : {0, 1})
         CHECK(total_momentum(run.system)[c] == Approx(momentum[c]).margin((newton ? 1e-5 : 1e-11) * speed));
       CHECK(least_heat >= 0.0);
-      // A sharp corner is pressed beyond what remaps keep (docs/theory/adaptive.md).
-      CHECK(std::abs(run.energy().relative_residual()) < (newton ? 0.15 : 0.04));
+      // USL damps whatever an edge that leaves a node nearly empty takes part in; it makes nothing.
+      CHECK(run.energy().relative_residual() > (integrator.name == "usl" ? 0.0 : -0.04));
+      CHECK(run.energy().relative_residual() < (integrator.name == "usl" ? 0.6 : 0.04));
       CHECK(std::abs(run.energy().contact) < 1e-3 * run.energy().initial);
       bool touched = false;
       for (std::size_t a = 0; a < 3; ++a)
