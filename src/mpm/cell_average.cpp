@@ -9,6 +9,7 @@ CellAverage::CellAverage(parallel::ThreadTeam& team, const Body& body, double ce
     : team_(team), size_(body.particles.size) {
   const Particles& p = body.particles;
   const double per_cell = 1.0 / cell, specific_volume = 1.0 / body.material->density();
+  order_.reserve(p.size - static_cast<std::size_t>(std::count(counted.begin(), counted.end(), 0)));
   for (std::uint32_t i = 0; i < p.size; ++i)
     if (counted[i])
       order_.push_back({{std::floor(p.position[0][i] * per_cell), std::floor(p.position[1][i] * per_cell)},
@@ -48,10 +49,14 @@ void CellAverage::sort() {
 }
 
 void CellAverage::find_cells() {
+  const auto begins = [&](std::uint32_t k) { return k == 0 || order_[k].cell != order_[k - 1].cell; };
+  std::size_t count = 0;
+  for (std::uint32_t k = 0; k < order_.size(); ++k) count += begins(k) ? 1 : 0;
+  cells_.reserve(count);
   std::vector<std::array<double, 2>> at;  // of the cells, sorted
+  at.reserve(count);
   for (std::uint32_t k = 0; k < order_.size(); ++k) {
-    if (k == 0 || order_[k].cell != order_[k - 1].cell)
-      cells_.push_back({k, k, {}}), at.push_back(order_[k].cell);
+    if (begins(k)) cells_.push_back({k, k, {}}), at.push_back(order_[k].cell);
     cells_.back().last = k + 1;
   }
   for_cells([&](std::size_t c) {

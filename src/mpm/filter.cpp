@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mpm/cell_average.hpp"
 #include "mpm/point.hpp"
@@ -50,6 +51,14 @@ double filter(parallel::ThreadTeam& team, Body& body, double cell) {
   });
 }
 
+std::vector<double> pressures(const Body& body) {
+  const TensorColumns stress = stress_of(body);
+  std::vector<double> pressure(body.particles.size);
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    pressure[i] = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3.0;
+  return pressure;
+}
+
 }  // namespace
 
 bool filter_pressures(System& system, double from, double to) {
@@ -68,12 +77,9 @@ double ringing_energy(const System& system) {
   double sum = 0.0;
   for (const Body& body : system.bodies) {
     const Particles& p = body.particles;
-    const TensorColumns stress = stress_of(body);
-    std::vector<double> pressure(p.size);
-    for (std::size_t i = 0; i < p.size; ++i)
-      pressure[i] = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3.0;
+    std::vector<double> pressure = pressures(body);
     const CellAverage average(*system.team, body, system.cell, std::vector<char>(p.size, 1));
-    const std::vector<double> own = average.differences(pressure, 1);
+    const std::vector<double> own = average.differences(std::move(pressure), 1);
     const double bulk = elastic_moduli(body.material->parameters().elastic).bulk,
                  specific_volume = 1.0 / body.material->density();
     sum += average.sum(
