@@ -27,13 +27,17 @@ void require_intact(const std::filesystem::path& path) {
   std::string line(checkpoint_header(sha256("")).size(), '\0');
   file.read(line.data(), static_cast<std::streamsize>(line.size()));
   if (!line.starts_with(checkpoint_magic))
-    throw FileError(fmt::format("{}: is not a checkpoint of this version: it does not begin with '{}'",
-                                path.string(), checkpoint_magic));
+    throw FileError(
+        fmt::format("{}: is not a checkpoint of this version: it does not begin with '{}'; --force instead "
+                    "of --resume starts anew",
+                    path.string(), checkpoint_magic));
   std::error_code failure;
   if (std::filesystem::file_size(path, failure) < checkpoint_header_size || failure ||
       line != checkpoint_header(sha256_of_file(path, checkpoint_header_size)))
     throw FileError(
-        fmt::format("{}: is truncated or damaged: its content does not match its SHA-256", path.string()));
+        fmt::format("{}: is truncated or damaged: its content does not match its SHA-256; --force instead of "
+                    "--resume starts anew",
+                    path.string()));
 }
 
 void require_size(const Group& group, const std::string& name, std::size_t found, std::size_t expected) {

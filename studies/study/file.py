@@ -185,7 +185,7 @@ def explained(case, fault):
     """What the program says of a case, with the place in the study file: of the setting that it refuses, or of one that varies, where it names none."""
     if not case.told:
         return fault
-    reader = _Reader(pathlib.Path(case.told))
+    reader = Reader(pathlib.Path(case.told))
     varied = [key for key in reader.table.get("vary", {}) if key in case.settings]
     where = _place_of(reader.table, re.findall(r"--set ([\w.]+)=", fault)) or (f"vary|{varied[0]}" if varied else None)
     point = f" at {', '.join(f'{key} = {json.dumps(case.settings[key])}' for key in varied)}" if varied else ""

@@ -1,9 +1,11 @@
 """The jobs of a study that is told by files: what `study.command` asks of its module. The plans are those of the study's folder."""
+import pathlib
 import sys
 import tempfile
 
 from study import plan as plans
-from study.case import Case
+from study.case import Case, check
+from study.reader import Reader
 from study.outcome import StudyError, run as compute
 from study.quantities import of_run, value
 
@@ -29,16 +31,18 @@ def cases(quick, out="."):
 
 
 def _try_quantities(plan):
-    """Quantities are looked up in a run of a moment."""
-    name, time = next(iter(plan["cases"])), plan["resolved"]["time"]
-    settings = {**plans.case(plan, name).settings, "time.end": time["start"] + 1e-4 * (time["end"] - time["start"])}
+    """Quantities are looked up in a run of a moment, if the program takes its scene."""
+    case, time = plans.case(plan, next(iter(plan["cases"]))), plan["resolved"]["time"]
+    if check(case):
+        return  # the check of all cases says so
+    settings = {**case.settings, "time.end": time["start"] + 1e-4 * (time["end"] - time["start"])}
     with tempfile.TemporaryDirectory() as folder:
         summary = of_run(compute(Case("try", plan["scene"], settings), folder))
-        for quantity in plan["quantities"] or []:
+        for number, quantity in enumerate(plan["quantities"] or []):
             try:
                 value(quantity["source"], summary)
             except StudyError as error:
-                raise StudyError(f"{plan['file']}: quantity {quantity['name']!r}: {error}") from error
+                raise Reader(pathlib.Path(plan["file"])).fault(f"quantity.{number}|from", f"quantity {quantity['name']!r}: {error}") from error
 
 
 def run(job, quick, out):

@@ -57,7 +57,8 @@ class StudyFile(Folder):
         scene = f'scene = "{blocks}"\n'
         for text, expected, status in ((scene + '[vary]\n"integrator.courant" = [0.4, -1.0]\n[report]\nkinds = ["sweep"]', r"study\.toml:3: key 'vary\.integrator\.courant': the program refuses the scene at integrator\.courant = -1\.0: case point-1: exit status 2: error: --set .*integrator.courant", 1),
                                (scene + '[vary]\n"space.cell" = [1e-3]\n"time.start" = [0.0, 1.0]\n[report]\nkinds = ["sweep"]', r"study\.toml:3: key 'vary\.space\.cell': the program refuses the scene at space\.cell = 0\.001, time\.start = 1\.0: case point-1: .*impact\.toml:\d+:\d+: key 'time\.end'", 1),
-                               (scene + '[[quantity]]\nname = "speed"\nfrom = "bodies.stricker.kinetic"\n[report]\nkinds = ["error-bars"]', "found 'stricker', expected one of target, striker", 1),
+                               (scene + '[[quantity]]\nname = "speed"\nfrom = "bodies.stricker.kinetic"\n[report]\nkinds = ["error-bars"]', r"study\.toml:4: key 'quantity\.0\.from': quantity 'speed': .*found 'stricker', expected one of target, striker", 1),
+                               (scene + '[[reference]]\nset = {"integrator.step" = -1}\n[[reference]]\nset = {"integrator.step" = 1e-8}\n[report]\nkinds = ["trade"]', r"study\.toml:3: key 'reference\.0\.integrator\.step': the program refuses the scene: case reference-reference-1: exit status 2: error: --set .*integrator\.step", 1),
                                (scene + '[[quantity]]\nname = "q"\nfrom = "failure.first_separation.tmie"\n[report]\nkinds = ["error-bars"]', "found 'tmie', expected one of time", 1),
                                (scene + 'set = {"time.end" = -1.0}', "^error: .*time.end", 2), (scene + "nonsense = 1", "^error: .*study.toml:2: key 'nonsense'", 2)):
             with self.subTest(expected=expected):

@@ -121,7 +121,9 @@ TEST_CASE("Altered, truncated and foreign checkpoints are refused", "[output]") 
     std::string altered = intact;
     altered[position] = static_cast<char>(altered[position] ^ 4);
     put(path, altered);
-    CHECK_THROWS_WITH(read_checkpoint(path), contains_text("is truncated or damaged"));
+    CHECK_THROWS_WITH(read_checkpoint(path),
+                      contains_text("is truncated or damaged: its content does not match its SHA-256; "
+                                    "--force instead of --resume starts anew"));
   }
   put(path, "title = \"a scene\"\n");
   CHECK_THROWS_WITH(read_checkpoint(path), contains_text("is not a checkpoint of this version"));
