@@ -164,8 +164,8 @@ ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
 std::string ArkodeImplicit::advice_on_loss(const System& system, double step, double lost) const {
   if (!(state_.remap_loss > 0.5 * lost)) return advice(system, step);
   return fmt::format(
-      "most of it at remaps, where material is pressed by more than {:g} %: try integrator.remap_travel = "
-      "{:.2g}, or integrator.method = \"arkode-explicit\"",
+      "most of it at remaps, where material is pressed by more than {:g} %: try more particles a cell, "
+      "integrator.remap_travel = {:.2g}, or integrator.method = \"arkode-explicit\"",
       100.0 * mpm::ConsistentMass::lumped_from, 0.2 * remap_.travel);
 }
 

@@ -5,17 +5,59 @@ import unittest
 
 import h5py
 import numpy as np
-from support import CommandLineTest, impact, overrides, read_summary, told
+from support import CommandLineTest, here, impact, overrides, read_summary, told
 
 explicit = overrides(integrator__method='"arkode-explicit"', integrator__rtol=1e-2)
 implicit = overrides(integrator__method='"arkode-implicit"', integrator__rtol=1e-2, integrator__order=2)
+die = here / "scenes" / "die.toml"
 methods = {"arkode-explicit": explicit, "arkode-implicit": implicit}
 # So many steps that there is time to interrupt.
 slow = {"arkode-explicit": [*explicit, *overrides(integrator__max_step=4e-9)],
         "arkode-implicit": [*implicit, *overrides(integrator__max_step=2e-8)]}
 
 
+# A small tile of glass that breathes: its waves are all of a few cells.
+swinging = """
+[space]
+geometry = "plane-strain"
+cell = 1.0e-3
+shape_functions = "gimp"
+[time]
+end = 60.0e-6
+[integrator]
+method = "arkode-explicit"
+[[body]]
+name = "tile"
+material = "glass"
+box = {min = [0.0, 0.0], max = [0.003, 0.003]}
+particles_per_cell = 4
+velocity_gradient = [[2000.0, 0.0], [0.0, 2000.0]]
+[material.glass]
+density = 2500.0
+young = 72e9
+poisson = 0.25
+"""
+
+
 class Results(CommandLineTest):
+    def lost(self, name, scene, *settings):
+        """Percent of the energy that a run loses, and what it says."""
+        answer = self.vitrum("run", scene, "--out", self.folder / name, "--quiet", *settings)
+        return 100.0 * read_summary(self.folder / name)["energy"]["relative_residual"], answer.stderr
+
+    def test_advice_after_a_loss_helps(self):
+        tile = self.folder / "tile.toml"
+        tile.write_text(swinging)
+        sparse = self.folder / "sparse.toml"
+        sparse.write_text(die.read_text().replace("particles_per_cell = 4", "particles_per_cell = 1"))
+        pressed = overrides(integrator__method='"arkode-implicit"', integrator__remap_travel=0.25, space__shape_functions='"gimp"')
+        for scene, settings, said, advice in ((tile, [], "try integrator.order = 4, or", "integrator.order=4"),
+                                              (sparse, pressed, "try more particles a cell, integrator.remap_travel = 0.05, or", "body.0.particles_per_cell=4")):
+            with self.subTest(advice):
+                lost, words = self.lost("before " + advice, scene, *settings)
+                self.assertIn(said, words)
+                self.assertLess(self.lost("after " + advice, scene, *settings, "--set", advice)[0], 0.5 * lost)
+
     def test_what_a_run_tells(self):
         for method, settings in methods.items():
             with self.subTest(method):
