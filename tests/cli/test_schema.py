@@ -10,7 +10,8 @@ from support import CommandLineTest, here, source
 # has neither inf nor nan and calls 4.0 an integer, these.
 beyond_a_schema = {
     "beyond_the_axis", "crossing_polygon", "duplicate_body", "end_before_start", "inside_out_box", "inside_out_ring", "missing_material",
-    "overlapping_bodies", "peak_below_yield", "peak_never_reached", "poisson_with_damage", "two_plasticity_models", "unknown_butcher_table",
+    "overlapping_bodies", "peak_below_yield", "peak_never_reached", "poisson_with_damage", "rubble_that_rubs", "rubble_without_strength",
+    "rubble_without_surface", "two_plasticity_models", "unknown_butcher_table",
     "unknown_component", "infinite", "not_a_number", "real_for_integer",
 }
 
