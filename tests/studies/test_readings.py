@@ -10,7 +10,7 @@ from support import StudyTest, source
 
 sys.path.insert(0, str(source / "studies"))
 from readings import analysis  # noqa: E402
-from readings.cases import cases_of, points, reference  # noqa: E402
+from readings.cases import cases_of, points, reference, rows_of_design  # noqa: E402
 from readings.design import all_pairs, covering_array, pairs_of  # noqa: E402
 from readings.factors import counts, factors  # noqa: E402
 
@@ -40,11 +40,11 @@ class Readings(StudyTest):
 
 class Design(unittest.TestCase):
     def test_every_pair_and_balance(self):
-        rows = covering_array(counts, 28)
+        rows = covering_array(counts, rows_of_design)
         self.assertEqual(set().union(*map(pairs_of, rows)), all_pairs(counts))
-        self.assertEqual(len(rows), 28)
+        self.assertEqual(len(rows), rows_of_design)
         self.assertEqual(rows[0], reference)
-        self.assertEqual(rows, covering_array(counts, 28))
+        self.assertEqual(rows, covering_array(counts, rows_of_design))
         for factor, count in enumerate(counts):
             used = [sum(row[factor] == level for row in rows) for level in range(count)]
             self.assertLessEqual(max(used) - min(used), 2)
@@ -79,7 +79,7 @@ class Stopped(unittest.TestCase):
 
 class Analysis(unittest.TestCase):
     def test_a_planted_effect_is_found_and_noise_is_not(self):
-        rows = np.array(covering_array(counts, 28))
+        rows = np.array(covering_array(counts, rows_of_design))
         random = np.random.default_rng(3)
         planted = (rows[:, 3] == 1).astype(float)
         noise = random.integers(0, 2, (4, len(rows))).astype(float)
