@@ -19,7 +19,7 @@ class Treatment:
 
     @property
     def probe(self):
-        return self.method in ("moved", "fine")
+        return self.method.startswith(("moved", "fine"))
 
 
 def read(out):

@@ -4,9 +4,6 @@ from functools import cached_property
 import numpy as np
 
 ring_width = 5e-3  # m
-# A ring has failed severely when as many of its particles have separated as one crack through the thickness takes: one
-# column of five.
-severe_share = 0.2
 damaged = 0.1  # D of the damage front, as in summary.json
 touched = 0.001  # D of the front of any damage: the scale of the paper's contours is unknown
 touch = 5e-3  # m: the cylinder's radius; what fails below it is the contact itself
@@ -26,6 +23,9 @@ class History:
         opening = [frame.opening() for frame in run.frames]
         self.opening = np.array([np.nan_to_num(values[plate]) if values is not None else np.zeros(plate.sum()) for values in opening])
         self.plate_radius = self.radius.max() + 0.5 * run.cell
+        # A ring has failed severely when as many of its particles have separated as one crack through the thickness takes, a column: of five with cells of 1 mm, of ten
+        # with 0.5 mm.
+        self.severe_share = run.cell / ring_width - 1e-9
 
     @cached_property
     def edges(self):
@@ -65,7 +65,7 @@ class History:
 
     def first_severe(self, low, high):
         """Time of the first output at which a ring between both radii has failed severely, or None."""
-        severe = np.any(self.separated_share[:, self._rings(low, high)] >= severe_share, axis=1)
+        severe = np.any(self.separated_share[:, self._rings(low, high)] >= self.severe_share, axis=1)
         return float(self.time[np.argmax(severe)]) if severe.any() else None
 
     def outermost_severe(self, time):
@@ -73,16 +73,16 @@ class History:
         n = self.index(time)
         if n is None:
             return None
-        severe = np.nonzero(self.separated_share[n] >= severe_share)[0]
+        severe = np.nonzero(self.separated_share[n] >= self.severe_share)[0]
         return float(self.edges[severe[-1] + 1]) if severe.size else 0.0
 
     def _front(self, share):
-        return np.array([self.edges[reached[-1] + 1] if (reached := np.nonzero(row >= severe_share)[0]).size else 0.0
+        return np.array([self.edges[reached[-1] + 1] if (reached := np.nonzero(row >= self.severe_share)[0]).size else 0.0
                          for row in share])
 
     @cached_property
     def damage_front(self):
-        """Outer radius of the outermost ring of which a fifth has D > 0.1, so far."""
+        """Outer radius of the outermost ring of which as much as a column has D > 0.1, so far."""
         return np.maximum.accumulate(self._front(self._per_ring(self.damage > damaged)))
 
     @cached_property

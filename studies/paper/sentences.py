@@ -174,22 +174,33 @@ def made_energy(sentence, runs):
 
 def turns_with(verdicts):
     """What a statement's verdict turns with, of `verdicts` by (alternative reading, method): the reading, the step (or the method that chooses it), the cell, and
-    chance, the ring that particles moved by 0.02 cells make. A blow-up counts as the text says: what the step makes of the statement is the question.
+    chance, the ring that particles moved by 0.02 cells make. A blow-up counts as the text says: what the step makes of the statement is the question. What turns with
+    chance is not said to turn with more. None: all four have been tried.
 
-    >>> turns_with({(False, "b"): "no", (True, "b"): "yes", (False, "moved"): "no", (True, "a-usf"): "blown up"})
+    >>> turns_with({(False, "b"): "no", (True, "b"): "yes", (False, "moved-1"): "no", (True, "moved-1"): "yes"})
     ['reading']
-    >>> turns_with({(False, "b"): "no", (False, "moved"): "yes"}), turns_with({(False, "b"): "no", (False, "fine"): "no"}), turns_with({(False, "b"): "–"})
-    (['chance'], ['none'], [])
+    >>> turns_with({(False, "b"): "no", (True, "b"): "yes", (False, "moved-1"): "no", (True, "moved-1"): "no"})
+    ['chance']
+    >>> turns_with({(False, "b"): "no", (False, "moved-1"): "no", (False, "a-usf"): "blown up", (False, "fine"): "yes"})
+    ['step', 'cell']
+    >>> turns_with({(False, "b"): "no", (False, "moved-1"): "no"}), turns_with({(False, "b"): "–"})
+    (['undecided'], [])
+    >>> turns_with({(False, "b"): "no", (True, "b"): "no", (False, "moved-1"): "no", (True, "moved-1"): "no", (False, "c"): "no", (False, "fine"): "no"})
+    ['none']
     """
     held = {key: verdict != "no" for key, verdict in verdicts.items() if verdict != "–"}
     base = {reading: held[reading, "b"] for reading in (False, True) if (reading, "b") in held}
     if not base:
         return []
-    causes = {"reading"} if len(set(base.values())) == 2 else set()
-    for (reading, method), verdict in held.items():
-        if reading in base and verdict != base[reading]:
-            causes.add({"moved": "chance", "fine": "cell"}.get(method, "step"))
-    return [cause for cause in ("reading", "step", "cell", "chance") if cause in causes] or ["none"]
+    compared = [(reading, {"moved": "chance", "fine": "cell"}.get(method.partition("-")[0], "step"), verdict == base[reading])
+                for (reading, method), verdict in held.items() if method != "b" and reading in base]
+    turned = {reading for reading, what, same in compared if what == "chance" and not same}
+    causes = {"chance"} if turned else set()
+    if len(set(base.values())) == 2 and not turned:
+        causes.add("reading")
+    causes |= {what for reading, what, same in compared if not same and reading not in turned}
+    tried = {what for _, what, _ in compared} | ({"reading"} if len(base) == 2 else set())
+    return [cause for cause in ("reading", "step", "cell", "chance") if cause in causes] or ["none" if len(tried) == 4 else "undecided"]
 
 
 def overall(verdicts):

@@ -90,7 +90,8 @@ def _case_table(rows, labels):
 def report(quick, out):
     study, every = read(out)
     treatments = list(dict.fromkeys(treatment for _, _, treatment in every))
-    histories = {key: History(study.outcome(case)) for key, case in every.items()}
+    outcomes = {key: study.outcome(case) for key, case in every.items()}
+    histories = {key: History(outcome) for key, outcome in outcomes.items() if outcome.summary is not None}  # of a run that was stopped nothing is said
     case_rows = [_case_row(radius, speed, treatment, history) for (radius, speed, treatment), history in histories.items()]
     write_csv(out / "tables" / "cases.csv", list(case_rows[0]), case_rows)
     rows = list(_sentence_rows(histories, treatments))
@@ -98,7 +99,7 @@ def report(quick, out):
 
     figures = out / "figures"
     for radius, speed in {key[:2] for key in every} & set(shown):
-        runs = {treatment.label: histories[radius, speed, treatment] for treatment in treatments if not treatment.probe}
+        runs = {key[2].label: history for key, history in histories.items() if key[:2] == (radius, speed) and not key[2].probe}
         space_time(runs, f"R = {radius} mm, {speed} m/s", figures, f"space-time-R{radius}-v{speed}")
         energies(runs, f"R = {radius} mm, {speed} m/s", figures, f"energy-R{radius}-v{speed}")
     resolved = [treatment for treatment in treatments if treatment.key in ("b", "c-1e-2", "alternative-b")]
@@ -123,7 +124,7 @@ def _page_values(study, every, histories, rows, case_rows, treatments, quick):
     unresolved = [row for row in own if row not in resolved]
     other = [row for row in case_rows if by_key[row["treatment"]].alternative and by_key[row["treatment"]].resolved]
     variant = next(iter(study.plan["variants"].values()))
-    causes = {cause: [row["sentence"] for row in rows if cause in row["turns with"]] for cause in ("reading", "step", "cell", "chance", "none", "–")}
+    causes = {cause: [row["sentence"] for row in rows if cause in row["turns with"]] for cause in ("reading", "step", "cell", "chance", "none", "undecided", "–")}
     wins = {key: [row["sentence"] for row in rows if row.get(key) == "yes"] for key in ("b", "alternative-b")}
     decohesion = [row["first_decohesion_us"] for row in resolved if row["speed"] == 200]
     first = plans.case(study.plan, next(case for key, case in every.items() if key[2].key == "b"))
@@ -147,11 +148,12 @@ def _page_values(study, every, histories, rows, case_rows, treatments, quick):
         "farthest_resolved": number(max(row["damage_front_mm"] for row in resolved)),
         "farthest_severe": number(1e3 * max(history.separation_front[-1] for key, history in histories.items() if key[2].resolved and not key[2].alternative)),
         "readings": _reading_table(rows, treatments),
-        "causes": markdown(["turns with", "statements", "which"], [[cause, len(keys), ", ".join(keys) or "–"] for cause, keys in causes.items() if keys or cause != "–"]),
+        "causes": markdown(["turns with", "statements", "which"], [[cause, len(keys), ", ".join(keys) or "–"] for cause, keys in causes.items() if keys or cause not in ("undecided", "–")]),
         "alternative": variant["title"], "alternative_settings": f"`{plans.typed(variant['set'])}`",
         "reference_hits": len(wins["b"]), "alternative_hits": len(wins["alternative-b"]),
         "gained": ", ".join(key for key in wins["alternative-b"] if key not in wins["b"]) or "none", "lost": ", ".join(key for key in wins["b"] if key not in wins["alternative-b"]) or "none",
         "alternative_worst": number(100 * max(abs(row["residual"]) for row in other), 2),
+        "longest": number(study.plan["longest"]), "stopped": _listed(f"R = {radius} mm, {speed} m/s, {treatment.label}" for radius, speed, treatment in every if (radius, speed, treatment) not in histories) or "none",
         "command": as_typed(first),
     }
 
