@@ -111,7 +111,7 @@ def report(quick, out):
 
 def _listed(values):
     texts = [str(value) for value in values]
-    return " and ".join(filter(None, [", ".join(texts[:-1]), texts[-1]]))
+    return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
 
 
 def _page_values(study, every, histories, rows, case_rows, treatments, quick):
