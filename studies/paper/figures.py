@@ -14,7 +14,7 @@ shown = {(200, 200): (50, 90, 100, 150), (200, 800): (50, 100, 150), (400, 200):
 drawn = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks": cracks, "fragments": fragments, "fragment-masses": fragment_masses}
 
 
-def pictures(outcomes, folder):
+def paper_figures(outcomes, folder):
     """In the manner of the paper's figures at its times, as far as a run came: all kinds of the resolved run of either reading, the snapshots of the paper's step.
     `outcomes`: by ((radius, speed), treatment)."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):

@@ -2,7 +2,7 @@
 import sys
 
 from paper.cases import read
-from paper.figures import energies, fronts, pictures, shown, space_time
+from paper.figures import energies, fronts, paper_figures, shown, space_time
 from paper.history import History
 from paper.sentences import judge, made_energy, overall, sentences, turns_with
 from study import plan as plans
@@ -105,7 +105,7 @@ def report(quick, out):
     resolved = [treatment for treatment in treatments if treatment.key in ("b", "c-1e-2", "alternative-b")]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
-    pictures({(key[:2], key[2].key): history.outcome for key, history in histories.items()}, figures)
+    paper_figures({(key[:2], key[2].key): history.outcome for key, history in histories.items()}, figures)
     return _page_values(study, every, histories, rows, case_rows, treatments, quick)
 
 

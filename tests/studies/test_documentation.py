@@ -1,4 +1,5 @@
 """What README.md and docs/ show and name is of this tree: the picture has the scene that stands in it, the paper its title."""
+import importlib
 import os
 import re
 import subprocess
@@ -28,6 +29,13 @@ def flat(table, prefix=""):
 
 
 class Documentation(unittest.TestCase):
+    def test_where_a_study_publishes_is_a_path(self):
+        """What a study's module calls `page` or `pictures` is where it publishes: a function of that name ended a full study at its last step."""
+        for path in sorted((source / "studies").glob("*/study.py")):
+            module = importlib.import_module(f"{path.parent.name}.study")
+            for name in ("page", "pictures"):
+                self.assertIsInstance(getattr(module, name, ""), str, f"{path}: {name}")
+
     def test_the_picture_shows_the_scene_that_stands_beside_it(self):
         """The scene that the picture carries, and the one that the program reads today from the same file with the same settings, agree in every key. (A key that
         is new, with its default, is a change of the program, which the commit tells.)"""
