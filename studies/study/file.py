@@ -62,9 +62,21 @@ def _report(reader, vary, methods):
         raise reader.fault("report|trade_points", "found true, but there is no table [vary] of what to vary")
     if "sweep" in chosen and not vary:
         raise reader.fault("report|kinds", "found 'sweep', but there is no table [vary] of what to vary")
-    if "methods" in chosen and not methods:
+    if "methods" in chosen and not reader.table.get("method"):
         raise reader.fault("report|kinds", "found 'methods', but there is no [[method]]")
+    if {"methods", "trade"} & set(chosen) and reader.table.get("method") and not methods:
+        raise reader.fault("method.0|quick", "every [[method]] has quick = [], so that a quick study has no methods left; expected some rungs")
     return table, chosen
+
+
+def _comparable(reader, chosen, trade_points):
+    """A trade measures every method against the same references, of the model as it is: at a point, or of the scene."""
+    if reader.table.get("variant") and ("trade" in chosen or "methods" not in chosen):
+        raise reader.fault("variant.0|variant", "variants are of another model than a trade's references, and no part of other kinds, expected report.kinds = [\"methods\"]; "
+                                                "for a trade of the variant, a study file of its own with `set`")
+    for prefix, item in reader.tables("method", ("name",)):
+        if "only" in item and "trade" in chosen and not trade_points:
+            raise reader.fault(prefix + "only", f"a trade of the scene as it is has no points, and would leave {item['name']!r} out, expected report.trade_points = true, or no `only`")
 
 
 def _vary(reader, quick, quick_table):
@@ -153,6 +165,7 @@ def read(path, quick=False):
     ensemble = reader.check(table.get("ensemble", {}), "ensemble", "ensemble|")
     members = ensemble.get("members", 10)
     _only(reader, quick_table)
+    _comparable(reader, chosen, report.get("trade_points", False))
     _parameters(reader, scene)
     fewest = quick_table.get("members", 4)
     if quick:

@@ -70,8 +70,7 @@ def _variants(reader, methods):
                 raise reader.fault(prefix + "methods", f"found {name!r}, expected some of {', '.join(known)}")
             method = known[name]
             rungs = tuple(replace(rung, settings={**rung.settings, **item["set"]}) for rung in method.rungs)
-            found.append(replace(method, name=f"{item['name']}-{name}", rungs=rungs, title=f"{method.title}, {title}",
-                                 tight=method.tight and {**method.tight, **item["set"]}, variant=item, of=name))
+            found.append(replace(method, name=f"{item['name']}-{name}", rungs=rungs, title=f"{method.title}, {title}", tight=None, variant=item, of=name))
     return found
 
 

@@ -29,6 +29,10 @@ class StudyFile(Folder):
                 (scene + '[[method]]\nname = "a"\neach = {"integrator.order" = [2, 3]}', "study.toml:4: key 'method.0.each': .*{} in the method's name"),
                 (scene + '[[method]]\nname = "a"\nquick = [1]', "study.toml:4: key 'method.0.quick': found \\[1\\], expected numbers of rungs from 0 to 0"),
                 (scene + '[report]\nkinds = ["methods"]', "found 'methods', but there is no"), (scene + '[quick]\nmembers = 2.5', "expected an integer"),
+                (scene + '[[method]]\nname = "a"\n[[variant]]\nname = "b"\nset = {"integrator.courant" = 0.1}', r"study.toml:4: key 'variant.0.variant': variants are of another model .*expected report.kinds = \["),
+                (scene + '[[method]]\nname = "a"\n[[variant]]\nname = "b"\nset = {}\n[report]\nkinds = ["error-bars"]', "study.toml:4: key 'variant.0.variant': .*no part of other kinds"),
+                (scene + '[[method]]\nname = "a"\n[[variant]]\nname = "b"\nset = {}\n[report]\nkinds = ["methods", "trade"]', "study.toml:4: key 'variant.0.variant': "),
+                (scene + '[vary]\n"space.cell" = [1e-3]\n[[method]]\nname = "a"\nonly = {"space.cell" = [1e-3]}', "study.toml:6: key 'method.0.only': a trade of the scene as it is has no points, and would leave 'a' out"),
                 (scene + '[[method]]\nset = {}', "has no key 'name'"), (scene + '[[method]]\nname = "a"\n[[method]]\nname = "a"', "two methods of one name"),
                 (scene + '[[reference]]\nset = {}', "found 1 of \\[\\[reference\\]\\], expected two"),
                 (scene + 'set = {"space.celll" = 1}', "study.toml:2: key 'set.space.celll'.*did you mean 'cell'"),
@@ -52,6 +56,27 @@ class StudyFile(Folder):
             with self.subTest(expected=expected):
                 with self.assertRaisesRegex(StudyError, "(?s)" + expected):
                     file.read(self.write(text))
+
+    def test_a_quick_study_says_that_no_method_is_left(self):
+        for kinds in ('["methods"]', '["trade"]', '["trade", "error-bars"]'):
+            path = self.write(f'scene = "{blocks}"\n[[method]]\nname = "a"\nset = {{"integrator.courant" = 0.1}}\nquick = []\n[report]\nkinds = {kinds}')
+            self.assertEqual([method.name for method in file.read(path).methods], ["a"])
+            with self.assertRaisesRegex(StudyError, r"study\.toml:5: key 'method\.0\.quick': every \[\[method\]\] has quick = \[\]"):
+                file.read(path, quick=True)
+
+    def test_only_is_of_a_trade_at_points(self):
+        path = self.write(f"""
+scene = "{blocks}"
+[vary]
+"space.cell" = [1e-3, 2e-3]
+[[method]]
+name = "a"
+only = {{"space.cell" = [2e-3]}}
+[report]
+kinds = ["trade"]
+trade_points = true
+""")
+        self.assertEqual([case["point"] for case in plan.make(path, False)["cases"].values() if case["role"] == "ladder"], [1])
 
     def test_a_refused_scene_or_quantity_ends_the_study_before_it_starts(self):
         scene = f'scene = "{blocks}"\n'
