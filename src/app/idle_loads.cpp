@@ -45,11 +45,12 @@ std::vector<Vector2> places_of(const std::string& path, const System& system) {
   return places;
 }
 
-/// Whether a function is 0 at a thousand times of the run, and where its slope jumps, at all its places.
+constexpr int tried = 1000;  // equal parts of a run, at whose ends a function is asked for
+
+/// Whether a function is 0 there, and where its slope jumps, at all its places. A table is then 0 all along.
 bool rests(const mpm::LoadFunction& function, const Scene& scene, const std::vector<Vector2>& places) {
-  constexpr int count = 1000;
   std::vector<double> times;
-  for (int k = 0; k <= count; ++k) times.push_back(scene.start + (scene.end - scene.start) * k / count);
+  for (int k = 0; k <= tried; ++k) times.push_back(scene.start + (scene.end - scene.start) * k / tried);
   for (double kink = function.next_kink(scene.start); kink < scene.end; kink = function.next_kink(kink))
     times.push_back(kink);
   try {
@@ -72,8 +73,10 @@ void warn_of_functions(const Scene& scene, const System& system, Warnings& list)
   for (const auto& [path, function] : scene.functions) {
     if (!is_over_time(function)) continue;
     if (rests(*load_function(scene, path), scene, places_of(path, system)))
-      list.push_back(fmt::format("{}: it is 0 from the start of the run, {:.4g} s, to its end, {:.4g} s",
-                                 scene.at(path), scene.start, scene.end));
+      list.push_back(fmt::format(
+          "{}: it is 0 {}from the start of the run, {:.4g} s, to its end, {:.4g} s", scene.at(path),
+          function.formula.empty() ? "" : fmt::format("at all of the {} times that were tried ", tried + 1),
+          scene.start, scene.end));
     else if (const auto& rows = function.table;
              !rows.empty() && (rows.front()[0] >= scene.end || rows.back()[0] <= scene.start))
       list.push_back(fmt::format(

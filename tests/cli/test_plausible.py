@@ -146,7 +146,9 @@ class Plausible(CommandLineTest):
                 ("traction.1.friedlander", idle, {f"{pulse}__arrival": 12e-6}), ("traction.1.friedlander", idle, {f"{pulse}__arrival": -9e-6}), ("", idle, {f"{pulse}__arrival": 11.9e-6}),
                 ("traction.1.blast", "the pulse arrives at", {pulse: "none", "traction__1__blast": "{charge = 1, standoff = 5}"}),
                 ("", idle, {pulse: "none", "traction__1__blast": "{charge = 1, standoff = 5, arrival = 0}"}),
-                ("traction.0.pressure", "it is 0 from the start", {"traction__0__pressure": '"=p*(t > 12.1*us)"'}),
+                ("traction.0.pressure", "it is 0 from the start", {"traction__0__pressure": "{table = [[0, 0], [1, 0]]}"}),
+                ("traction.0.pressure", "it is 0 at all of the 1001 times that were tried from the start", {"traction__0__pressure": '"=p*(t > 12.1*us)"'}),
+                ("traction.0.pressure", "it is 0 at all of the 1001 times", {"traction__0__pressure": '"=p*(t > 5.005*us && t < 5.015*us)"'}),  # it acts: 10 ns between two of them
                 ("", "it is 0", {"traction__0__pressure": '"=p*(t > 11.99*us)"'}), ("", "it is 0", {"traction__0__pressure": '"=p*t*(r < 0.1*mm)"'}),
                 ("boundary.0.velocity.1", "it is 0 from the start", {"boundary__0__velocity": "[0, {table = [[0, 0], [1, 0]]}]"}),
                 ("", "it is 0", {"boundary__0__velocity": "[0, {table = [[1e-9, 0], [2e-9, 1], [3e-9, 0]]}]"}),
