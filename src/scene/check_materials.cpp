@@ -53,7 +53,7 @@ void warn_of_wave_speed(const TableView& material, const ElasticParameters& give
   const bool by_poisson = found > fastest && speed(compressible) <= fastest;
   material.warn(by_poisson ? "poisson" : "young",
                 fmt::format("waves travel at {:.4g} m/s in this material, expected {:g} to {:g} m/s{}", found,
-                            slowest, fastest, meant));
+                            slowest, fastest, by_poisson ? "" : meant));
 }
 
 /// A registered law stands alone, and its keys agree with each other.
@@ -94,9 +94,11 @@ void warn_of_strengths(const TableView& table, const MaterialParameters& materia
     warn_of_strength(*table.table("damage"), "toughness", material.damage->toughness, 1e4, 1e9, "Pa sqrt(m)");
   if (material.von_mises)
     warn_of_strength(*table.table("von_mises"), "yield", material.von_mises->yield, least, most, "Pa");
-  if (material.drucker_prager)
-    warn_of_strength(*table.table("drucker_prager"), "yield", material.drucker_prager->yield, least, most,
-                     "Pa");
+  if (!material.drucker_prager) return;
+  // What has no cohesion is written with next to none. Only what is a usual strength in MPa is told.
+  const double yield = material.drucker_prager->yield, in_mega = 1e6 * yield / material.elastic.young;
+  if (yield >= least || (in_mega >= 1e-4 && in_mega <= 0.05))
+    warn_of_strength(*table.table("drucker_prager"), "yield", yield, least, most, "Pa");
 }
 
 /// What bears a separated point, and what that asks of other keys.

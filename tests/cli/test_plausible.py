@@ -191,8 +191,13 @@ class Plausible(CommandLineTest):
         told("", "of its table", gravity="{acceleration = [0, {table = [[0, 1], [9e-3, 2]]}]}")
         told("material.m.damage.toughness", "did you mean 0.83e6?", material__m__damage="{toughness = 0.83, k = 5.0e26, m = 6}")
         told("material.m.von_mises.yield", "found 300 Pa, expected 7.2e+04 to 1.44e+10; did you mean 300e6?", material__m__von_mises="{yield = 300, peak = 300, hardening = 0, softening = 0}")
+        told("material.m.drucker_prager.yield", "did you mean 300e6?", material__m__drucker_prager="{yield = 300, beta = 1.8}")
+        for cohesionless in (1e-3, 1.0, 7.0, 7e4):
+            told("", "drucker_prager.yield", material__m__drucker_prager=f"{{yield = {cohesionless}, beta = 1.8}}")
         told("material.m.drucker_prager.yield", "found 2e+10 Pa", material__m__drucker_prager="{yield = 2e10, beta = 1.8}")
         told("material.m.poisson", "waves travel at 2.191e+06 m/s", material__m__poisson=0.499999)
+        told("material.m.poisson", "waves travel at 2.191e+05 m/s in this material, expected 100 to 20000 m/s", material__m__poisson=0.4999)
+        told("", "did you mean", material__m__poisson=0.4999)
 
     def test_a_tolerance_that_is_idle(self):
         idle = {"integrator__method": '"arkode-explicit"', "integrator__rtol": 0.1, "time__end": 40e-6}
