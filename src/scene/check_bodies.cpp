@@ -10,11 +10,11 @@
 #include "scene/checks.hpp"
 #include "scene/choices.hpp"
 #include "scene/input_error.hpp"
+#include "scene/outline.hpp"
 #include "scene/polygon_check.hpp"
 #include "scene/shape_measures.hpp"
 #include "scene/shapes.hpp"
 #include "scene/suggestion.hpp"
-#include "scene/surface_edges.hpp"
 #include "scene/toml_text.hpp"
 
 namespace vitrum::scene {
@@ -113,6 +113,8 @@ bool has_shape(const TableView& table, const Region& body) {
 
 /// m^2; NaN where edges of the region's shapes have too much in common.
 double area_of(const Region& region) {
+  if (const auto* together = std::get_if<Union>(&region.shape); together && together->parts.empty())
+    return 0.0;
   try {
     return measures(region, Geometry::plane_strain).area;
   } catch (const InputError&) {
@@ -120,51 +122,93 @@ double area_of(const Region& region) {
   }
 }
 
-/// Whether two areas are the same, to what edges are known by.
-bool same_area(double a, double b) {
-  return std::abs(a - b) <= 1e-9 * std::max(a, b);
+/// The parts or holes of a region. What one of them changes, it changes in its own box, where others are few.
+class Pieces {
+ public:
+  explicit Pieces(const std::vector<Region>& regions) : regions_(regions), idle_(regions.size()) {
+    for (const Region& each : regions) boxes_.push_back(bounds(each));
+  }
+  const Box& box(std::size_t n) const { return boxes_[n]; }
+  void set_idle(std::size_t n) { idle_[n] = true; }
+
+  /// Those at a box, without one, and without those that are idle.
+  std::vector<Region> at(const Box& box, std::size_t but = std::numeric_limits<std::size_t>::max()) const {
+    std::vector<Region> list;
+    for (std::size_t n = 0; n < boxes_.size(); ++n)
+      if (n != but && !idle_[n] && boxes_[n].min[0] <= box.max[0] && box.min[0] <= boxes_[n].max[0] &&
+          boxes_[n].min[1] <= box.max[1] && box.min[1] <= boxes_[n].max[1])
+        list.push_back(regions_[n]);
+    return list;
+  }
+
+ private:
+  const std::vector<Region>& regions_;
+  std::vector<Box> boxes_;
+  std::vector<bool> idle_;
+};
+
+/// Whether a piece (of an area, uncut) changes nothing of a region's area, to what edges and areas are known.
+/// Of what is too small beside the region, nobody can say.
+bool changes_nothing(double piece, double without, double with) {
+  constexpr double known = 1e-9, rounding = 1e-13;
+  return piece > 100.0 * rounding * without &&
+         std::abs(with - without) <= std::max(known * piece, rounding * without);
 }
 
 /// Parts of a region that change nothing. Of two that are the same the second is told.
-void judge_parts(const TableView& table, const Region& region, double whole) {
+void judge_parts(const TableView& table, const std::vector<Region>& parts, const std::vector<Region>& holes) {
   const std::vector<TableView> tables = table.tables("union");
-  Region rest = region;
-  for (std::size_t n = tables.size(); n-- > 0;) {
-    Region fewer = rest;
-    auto& parts = std::get<Union>(fewer.shape).parts;
-    if (parts.size() < 2) return;
-    const std::string_view key = shape_names[parts[n].shape.index()];
-    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(n));
-    if (!same_area(area_of(fewer), whole)) continue;
-    rest = fewer;
-    tables[n].warn(key,
+  Pieces pieces(parts);
+  const Pieces cut(holes);
+  for (std::size_t n = parts.size(); n-- > 0;) {
+    Region without = Union{pieces.at(pieces.box(n), n)};
+    without.holes = cut.at(pieces.box(n));
+    Region with = without;
+    std::get<Union>(with.shape).parts.push_back(parts[n]);
+    if (!changes_nothing(area_of(Region(parts[n].shape)), area_of(without), area_of(with))) continue;
+    pieces.set_idle(n);
+    tables[n].warn(shape_names[parts[n].shape.index()],
                    "found it adding nothing, expected something that neither the other parts have nor holes "
                    "cut out");
   }
 }
 
-/// Holes that cut nothing out, or what the grid does not know.
-void judge_holes(const TableView& table, const Region& region, double whole, double cell) {
+/// Holes that cut nothing out, or what the grid does not know. Of two that are the same the second is told.
+void judge_holes(const TableView& table, const Region& region, double cell) {
   const std::vector<TableView> tables = table.tables("hole");
   if (tables.empty()) return;
-  const double uncut = area_of(Region(region.shape));
-  for (std::size_t n = 0; n < tables.size(); ++n) {
-    Region others = region, alone = region;
-    others.holes.erase(others.holes.begin() + static_cast<std::ptrdiff_t>(n));
-    alone.holes = {region.holes[n]};
-    const std::string_view key = shape_names[region.holes[n].shape.index()];
-    const Box box = bounds(region.holes[n]);
+  const auto* together = std::get_if<Union>(&region.shape);
+  const std::vector<Region> none;
+  const Pieces parts(together ? together->parts : none);
+  Pieces holes(region.holes);
+  const double whole = together ? 0.0 : area_of(Region(region.shape));
+  for (std::size_t n = tables.size(); n-- > 0;) {
+    const Region& hole = region.holes[n];
+    const Box& box = holes.box(n);
+    const Region body = together ? Region(Union{parts.at(box)}) : Region(region.shape);
+    const double area = area_of(Region(hole.shape)), uncut = together ? area_of(body) : whole;
+    const auto left_by = [&](std::vector<Region> list) {
+      Region rest = body;
+      rest.holes = std::move(list);
+      return rest.holes.empty() ? uncut : area_of(rest);
+    };
+    std::vector<Region> others = holes.at(box, n);
+    const double without = left_by(others);
+    others.push_back(hole);
+    const std::string_view key = shape_names[hole.shape.index()];
     const double width = std::min(box.max[0] - box.min[0], box.max[1] - box.min[1]);
-    if (same_area(area_of(alone), uncut))
-      tables[n].warn(key, fmt::format("found it outside '{}', expected it to cut something out",
-                                      join_path(table.path(), shape_names[region.shape.index()])));
-    else if (same_area(area_of(others), whole))
-      tables[n].warn(key, "found it within other holes, expected it to cut something out");
-    else if (width < cell)
+    if (changes_nothing(area, without, left_by(others))) {
+      holes.set_idle(n);
+      const bool outside = changes_nothing(area, uncut, left_by({hole}));
+      tables[n].warn(key, outside ? fmt::format("found it outside '{}', expected it to cut something out",
+                                                join_path(table.path(), shape_names[region.shape.index()]))
+                                  : "found it within other holes, expected it to cut something out");
+    } else if (width < cell) {
       tables[n].warn(key,
                      fmt::format("found it {:.3g} m wide, less than a cell ({:.3g} m): it takes mass away, "
                                  "but what is beside it moves as if it were not there",
                                  width, cell));
+    }
   }
 }
 
@@ -184,9 +228,10 @@ void check_region(const TableView& table, const Region& region, const Scene& sce
     if (has_shape(holes[n], region.holes[n])) check_shape(holes[n], region.holes[n].shape);
   if (!is_composed(region) || !has_shape(table, region)) return;
   try {
-    const double whole = measures(region, Geometry::plane_strain).area;
-    if (std::holds_alternative<Union>(region.shape)) judge_parts(table, region, whole);
-    judge_holes(table, region, whole, scene.cell);
+    outline(region);
+    if (const auto* together = std::get_if<Union>(&region.shape))
+      judge_parts(table, together->parts, region.holes);
+    judge_holes(table, region, scene.cell);
   } catch (const InputError& error) {
     table.report(shape_names[region.shape.index()], error.what());
   }

@@ -134,10 +134,37 @@ class Plausible(CommandLineTest):
         told("body.0.hole.0.disk", "found it outside 'body.0.box'", disk(0.03, 0.001))
         told("body.0.hole.0.disk", "found it outside 'body.0.box'", disk(-0.001, 0.001))  # touches it
         told("body.0.hole.1.disk", "found it within other holes", disk(0.005, 0.002), disk(0.005, 0.0015))
+        told("body.0.hole.1.disk", "found it within other holes", disk(0.005, 0.002), disk(0.005, 0.002))
+        told("body.0.hole.1.disk", "found it within other holes", disk(0.004, 0.002), disk(0.005, 0.0015), disk(0.006, 0.002))
+        told("body.0.hole.0.disk", "found it 6e-08 m wide, less than a cell", disk(0.005, 3e-8))  # 3e-11 of the body
+        told("body.0.hole.0.disk", "found it 2e-10 m wide, less than a cell", disk(0.005, 1e-10))
+        told("body.0.hole.0.disk", "found it outside", disk(0.03, 3e-8))
         told("body.0.hole.0.disk", "found it 0.0008 m wide, less than a cell (0.001 m)", disk(0.005, 0.0004))
         for words in ("less than a cell", "outside", "within other holes"):
             told("", words, disk(0.005, 0.0006))
             told("", words, disk(-0.0019, 0.002))  # a notch
+            told("", words, disk(0.004, 0.0012), disk(0.006, 0.0012))  # which overlap
+
+    def test_holes_of_bodies_of_parts(self):
+        """Seen from a hole, the parts that it does not touch are not there."""
+        def told(key, words, *holes, parts=("min = [0, 0], max = [0.004, 0.01]", "min = [0.004, 0], max = [0.01, 0.01]")):
+            union = ", ".join(f"{{box = {{{part}}}}}" for part in parts)
+            self.assert_told(key, words, body__0__box="none", body__0__union=f"[{union}]", body__0__hole=f"[{', '.join(holes)}]")
+
+        disk = "{{disk = {{centre = [{}, 0.005], radius = {}}}}}".format
+        told("body.0.hole.0.disk", "found it outside 'body.0.union'", disk(0.03, 0.001))
+        told("body.0.hole.1.disk", "found it within other holes", disk(0.004, 0.002), disk(0.005, 0.0009))
+        told("", "expected it to cut something out", disk(0.002, 0.001), disk(0.004, 0.0015), disk(0.008, 0.001))
+
+    def test_many_holes(self):
+        """What is told of some does not depend on how many there are, nor do others become idle by it; 400 of 20 by 20, of which each tenth is there twice."""
+        centres = [((n % 20 + 0.5) * 5e-4, (n // 20 + 0.5) * 5e-4) for n in range(400)]
+        holes = ", ".join(f"{{disk = {{centre = [{x:.6g}, {y:.6g}], radius = 2e-4}}}}" for x, y in centres + centres[::10])
+        scene = self.folder / "holes.toml"
+        scene.write_text(rods.read_text().replace("[[body]]", f"[[body]]\nhole = [{holes}]", 1))
+        found = [int(number) for line in self.warnings(scene) for number in re.findall(r"body\.0\.hole\.(\d+)\.disk': found it within other holes", line)]
+        self.assertEqual(found, list(range(400, 440)))
+        self.assertFalse(any("found it outside" in line for line in self.warnings(scene)))
 
     def test_loads_that_never_come(self):
         loaded = here / "scenes" / "loaded.toml"
