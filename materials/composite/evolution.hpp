@@ -97,11 +97,12 @@ class CompositeEvolution final : public CompositeModes,
   void set_branch(CompositeMode& mode, const CompositeState& s) const;
   void select_proportional(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
                            double fraction, PointReport& report) const;
+  bool faces_part(CompositeMode mode, const CompositeState& s, const StrainPath& path, bool may_flow) const;
   bool select_flow_and_sliding(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
-                               bool may_flow) const;
+                               bool may_flow, bool may_slide) const;
   void project_faces(const CompositeMode& mode, CompositeState& s) const;
   bool select_flow_and_opening(CompositeMode& mode, const CompositeState& s, const StrainPath& path,
-                               bool may_flow, bool may_open) const;
+                               bool may_flow, bool may_open, bool may_slide) const;
 
   // jumps.hpp
   void resume_after_jump(CompositeMode& mode, CompositeState& s, double fraction, PointReport& report) const;

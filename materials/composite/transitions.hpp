@@ -111,18 +111,18 @@ void CompositeEvolution<D, Y, C>::select_models(CompositeMode& mode, std::option
   // A jump may ask for another: a bounded number of times. What the event tells holds of the state before it.
   constexpr int most_jumps = 8;
   bool unloads = root == CompositeGuard::unload, stalls = root == CompositeGuard::opening_stops,
-       reached = root == CompositeGuard::yield;
+       reached = root == CompositeGuard::yield, rests = root == CompositeGuard::stick;
   bool yields = reached || s.plastic_strain == 0.0;  // is what flows from here on an event?
   for (int jumps = 0;; ++jumps) {
     using Plane = CompositeMode::Plane;
     if ((mode.plane == Plane::held || mode.decohering()) && strength_is_spent(s, path)) {
       separate_plane(mode, s, fraction, report);
-      unloads = stalls = reached = false;
+      unloads = stalls = reached = rests = false;
     }
     const bool may_flow = !unloads && on_surface(mode, s, reached),
                may_open = !stalls && at_strength(mode, s);
     set_branch(mode, s);
-    const bool runs_away = select_flow_and_opening(mode, s, path, may_flow, may_open);
+    const bool runs_away = select_flow_and_opening(mode, s, path, may_flow, may_open, !rests);
     if (yields && mode.flowing) report.record(EventKind::yield, fraction, stress(s)), yields = false;
     if (reached && !mode.flowing) step_inside_surface(mode, s);
     if (jumps == most_jumps) {
@@ -138,7 +138,7 @@ void CompositeEvolution<D, Y, C>::select_models(CompositeMode& mode, std::option
       }
     }
     if (!perform_jump(mode, s, path, fraction, runs_away, report)) return;
-    unloads = stalls = reached = false;
+    unloads = stalls = reached = rests = false;
   }
 }
 
@@ -268,41 +268,70 @@ void CompositeEvolution<D, Y, C>::select_proportional([[maybe_unused]] Composite
   }
 }
 
-/// Of flow and sliding of closed faces, those that go forward: both together, or the one that relieves the
-/// other. True, and neither, where the faces bear nothing and part.
+/// Whether closed faces that bear nothing part while the material behind them goes on.
+template <bool D, Yielding Y, bool C>
+bool CompositeEvolution<D, Y, C>::faces_part(CompositeMode mode, const CompositeState& s,
+                                             const StrainPath& path, bool may_flow) const {
+  mode.plane = CompositeMode::Plane::open;
+  mode.slides = 0.0, mode.flowing = may_flow;
+  CompositeRates r = rates(mode, s, path);
+  if (may_flow && !(r.plastic_strain > 0.0)) {
+    mode.flowing = false;
+    r = rates(mode, s, path);
+  }
+  return r.opening_n > 0.0;
+}
+
+/// Of flow and sliding of closed faces, those that act: each acting one goes forward, and its surface bounds
+/// the rates of the other where that one rests (a linear complementarity problem). Where a law that is not
+/// associated has several solutions, the first of: neither, flow, sliding, both; where rounding leaves none,
+/// what misses one by least. Both may go forward while the path goes back, the plane being driven by
+/// softening: a fall. may_slide: false where sliding has just come to rest. True, and neither, where the
+/// faces bear nothing and part.
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::select_flow_and_sliding(CompositeMode& mode, const CompositeState& s,
-                                                          const StrainPath& path, bool may_flow) const {
+                                                          const StrainPath& path, bool may_flow,
+                                                          bool may_slide) const {
   const DecohesionPlane plane{s.normal};
   const Moduli m = secant(mode.tension, s);
-  const PlaneTraction t = traction(plane, s.elastic_strain, m), change = traction(plane, path.strain, m);
+  const PlaneTraction t = traction(plane, s.elastic_strain, m);
   const double rounding = tolerance::rounding * m.p_wave() * (norm(s.elastic_strain) + norm(path.strain));
-  if (t.normal >= -rounding && change.normal > 0.0) return true;
-  // Where the faces have just met, the path tells to which side it pushes.
-  const double pushing = std::abs(t.tangential) > rounding ? t.tangential : change.tangential;
-  const double size = std::abs(t.tangential) + std::abs(t.normal);
-  const bool slides =
-      std::abs(t.tangential) + decohesion_.friction() * t.normal >= -tolerance::on_surface * size - rounding;
-  CompositeMode sliding = mode, flowing = mode, both = mode;
-  sliding.slides = pushing > 0.0 ? 1.0 : pushing < 0.0 ? -1.0 : 0.0;
-  both.slides = sliding.slides;
-  sliding.flowing = false, flowing.slides = 0.0, flowing.flowing = both.flowing = true;
-  mode.flowing = false, mode.slides = 0.0;
-  if (may_flow && Y == Yielding::von_mises && softens_past_equilibrium(flowing, s)) {
-    mode.flowing = true;  // the fall comes first
+  if (t.normal >= -rounding && faces_part(mode, s, path, may_flow)) return true;
+  // Where the faces have just met, they may slide to either side.
+  const bool at_apex = std::abs(t.tangential) <= rounding;
+  const double size = std::abs(t.tangential) + std::abs(t.normal), friction = decohesion_.friction();
+  const double side = t.tangential < 0.0 ? -1.0 : 1.0;
+  may_slide =
+      may_slide && std::abs(t.tangential) + friction * t.normal >= -tolerance::on_surface * size - rounding;
+  CompositeMode tried = mode;
+  tried.slides = 0.0, tried.flowing = true;
+  if (may_flow && Y == Yielding::von_mises && softens_past_equilibrium(tried, s)) {
+    mode = tried;  // the fall comes first
     return false;
   }
-  const auto goes_forward = [&](const CompositeMode& tried) {
+  const SymmetricTensor gradient = yield_gradient(s, m);
+  const auto violation = [&] {  // of the four inequalities, as a strain per unit of the path
     const CompositeRates r = rates(tried, s, path);
-    return (tried.slides == 0.0 || tried.slides * r.opening_t > 0.0) &&
-           (!tried.flowing || r.plastic_strain > 0.0);
+    double of_slip = 0.0, of_flow = 0.0;
+    if (tried.rubs()) {
+      of_slip = -tried.slides * r.opening_t / s.effective_length;
+    } else if (may_slide) {
+      const PlaneTraction c = traction(plane, r.elastic_strain, m);
+      of_slip = ((at_apex ? std::abs(c.tangential) : side * c.tangential) + friction * c.normal) / m.p_wave();
+    }
+    if (tried.flowing)
+      of_flow = -r.plastic_strain;
+    else if (may_flow)
+      of_flow = contract(gradient, r.elastic_strain) / m.p_wave();
+    return std::max({0.0, of_slip, of_flow});
   };
-  if (slides && may_flow && goes_forward(both))
-    mode = both;
-  else if (slides && goes_forward(sliding))
-    mode = sliding;
-  else if (may_flow && goes_forward(flowing))
-    mode = flowing;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double slides : {0.0, side, at_apex ? -side : 0.0})
+    for (const bool flows : {false, true}) {
+      if ((slides != 0.0 && !may_slide) || (flows && !may_flow)) continue;
+      tried.slides = slides, tried.flowing = flows;
+      if (const double v = violation(); v < least) least = v, mode = tried;
+    }
   return false;
 }
 
@@ -312,7 +341,7 @@ bool CompositeEvolution<D, Y, C>::select_flow_and_sliding(CompositeMode& mode, c
 template <bool D, Yielding Y, bool C>
 bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, const CompositeState& s,
                                                           const StrainPath& path, bool may_flow,
-                                                          bool may_open) const {
+                                                          bool may_open, bool may_slide) const {
   using Plane = CompositeMode::Plane;
   if constexpr (C) {
     mode.viscous = decohesion_.viscosity() > 0.0;
@@ -327,7 +356,7 @@ bool CompositeEvolution<D, Y, C>::select_flow_and_opening(CompositeMode& mode, c
   mode.slides = 0.0;
   if constexpr (C) {
     if (mode.plane == Plane::closed && decohesion_.friction() > 0.0) {
-      if (!select_flow_and_sliding(mode, s, path, may_flow)) return false;
+      if (!select_flow_and_sliding(mode, s, path, may_flow, may_slide)) return false;
       mode.plane = Plane::open;
     }
   }

@@ -82,6 +82,34 @@ inline std::vector<NamedMaterial> rated_damages() {
           glass("fixed rate", [](P& p) { p.fixed_rate = 1.0e3; })};
 }
 
+/// Faces that rub before a material that flows at stresses of their own size.
+inline std::vector<NamedMaterial> rubbing_and_flowing() {
+  const auto rubbing = [](const std::string& name, double friction, auto choose) {
+    NamedMaterial named{name, fracturing_glass()};
+    named.parameters.decohesion = DecohesionParameters{5.0e-8, 1.0, 1.0, 0.0, false};
+    named.parameters.decohesion->friction = friction;
+    choose(named.parameters);
+    return named;
+  };
+  using P = MaterialParameters;
+  return {rubbing("faces rub, hardening flow", 0.4,
+                  [](P& p) {
+                    p.von_mises = VonMisesParameters{60.0e6, 80.0e9, 9.6e9, 0.0};
+                  }),
+          rubbing("faces rub, softening flow", 0.4,
+                  [](P& p) {
+                    p.damage.reset();
+                    p.von_mises = VonMisesParameters{60.0e6, 80.0e6, 9.6e9, 9.6e9};
+                  }),
+          rubbing("faces rub, weak flow under pressure", 0.8,
+                  [](P& p) {
+                    p.drucker_prager = DruckerPragerParameters{20.0e6, 0.5, false};
+                  }),
+          rubbing("faces rub, associated flow", 0.4, [](P& p) {
+            p.drucker_prager = DruckerPragerParameters{20.0e6, 0.3, true};
+          })};
+}
+
 /// Glass with all its models, by every reading of eqs. 7 and 10 to 18 but the default, one at a time, and by
 /// all of them at once.
 inline std::vector<NamedMaterial> readings() {
@@ -92,27 +120,30 @@ inline std::vector<NamedMaterial> readings() {
     return named;
   };
   using P = MaterialParameters;
-  return {glass("pressure waves", [](P& p) { p.damage->pressure_wave = true; }),
-          glass("undamaged moduli", [](P& p) { p.decohesion->undamaged = true; }),
-          glass("pressure counts", [](P& p) { p.decohesion->pressure_counts = true; }),
-          glass("tension alone", [](P& p) { p.decohesion->partial_compression = false; }),
-          glass("no flow behind the plane", [](P& p) { p.decohesion->flow_behind_plane = false; }),
-          glass("given tau_bar_0", [](P& p) { p.decohesion->tau_bar_0 = 60.0e6; }),
-          glass("rubble bears pressure", [](P& p) { p.decohesion->separated = Separated::pressure; }),
-          glass("rubble bears shear",
-                [](P& p) {
-                  p.decohesion->separated = Separated::drucker_prager;
-                  p.drucker_prager->beta = 0.6;
-                }),
-          glass("faces rub", [](P& p) { p.decohesion->friction = 0.3; }),
-          glass("rubble bears nothing", [](P& p) { p.decohesion->separated = Separated::nothing; }),
-          glass("all at once", [](P& p) {
-            p.damage->pressure_wave = true;
-            p.decohesion->undamaged = p.decohesion->pressure_counts = true;
-            p.decohesion->partial_compression = p.decohesion->flow_behind_plane = false;
-            p.decohesion->tau_bar_0 = 60.0e6;
-            p.decohesion->separated = Separated::pressure;
-          })};
+  std::vector<NamedMaterial> all{
+      glass("pressure waves", [](P& p) { p.damage->pressure_wave = true; }),
+      glass("undamaged moduli", [](P& p) { p.decohesion->undamaged = true; }),
+      glass("pressure counts", [](P& p) { p.decohesion->pressure_counts = true; }),
+      glass("tension alone", [](P& p) { p.decohesion->partial_compression = false; }),
+      glass("no flow behind the plane", [](P& p) { p.decohesion->flow_behind_plane = false; }),
+      glass("given tau_bar_0", [](P& p) { p.decohesion->tau_bar_0 = 60.0e6; }),
+      glass("rubble bears pressure", [](P& p) { p.decohesion->separated = Separated::pressure; }),
+      glass("rubble bears shear",
+            [](P& p) {
+              p.decohesion->separated = Separated::drucker_prager;
+              p.drucker_prager->beta = 0.6;
+            }),
+      glass("faces rub", [](P& p) { p.decohesion->friction = 0.3; }),
+      glass("rubble bears nothing", [](P& p) { p.decohesion->separated = Separated::nothing; }),
+      glass("all at once", [](P& p) {
+        p.damage->pressure_wave = true;
+        p.decohesion->undamaged = p.decohesion->pressure_counts = true;
+        p.decohesion->partial_compression = p.decohesion->flow_behind_plane = false;
+        p.decohesion->tau_bar_0 = 60.0e6;
+        p.decohesion->separated = Separated::pressure;
+      })};
+  for (NamedMaterial& named : rubbing_and_flowing()) all.push_back(std::move(named));
+  return all;
 }
 
 /// The twelve compositions: damage or not, no yield, von Mises or Drucker-Prager, decohesion or not.

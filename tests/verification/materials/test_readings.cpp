@@ -233,6 +233,44 @@ TEST_CASE("rubble that bears shear keeps to q = beta P, and falls apart when it 
     });
 }
 
+TEST_CASE("flow and sliding together: neither surface is left, in few increments and in many",
+          "[material][decohesion][reading]") {
+  for (const NamedMaterial& named : rubbing_and_flowing()) {
+    const MaterialParameters& p = named.parameters;
+    const auto material = composite_of(p, cell);
+    const double friction = p.decohesion->friction;
+    Random random(7);
+    int pressed = 0;
+    for (int sample = 0; sample < 12; ++sample) {
+      auto path = path_with_reversals(random, 6e-3, 4e3, 4);
+      path.insert(path.begin(), {{3e-3, 0.0, 0.0, random.uniform(-1e-3, 1e-3)}, 1e-6});
+      path.push_back({{-6e-3, 0.0, 0.0, random.uniform(-3e-3, 3e-3)}, 1e-6});
+      auto all = solvers(1e-9);
+      for (int method = 0; method < 2; ++method) {
+        CAPTURE(named.name, sample, all[method].name);
+        const Driven few = drive(*material, path, 2, {}, all[method].integrator.get()),
+                     many = drive(*material, path, 50, {}, all[method].integrator.get());
+        CAPTURE(few.cause, many.cause);
+        REQUIRE((few.cause + many.cause).empty());
+        CHECK(distance(few.state.stress, many.state.stress) < 1e4);
+        CHECK(few.dissipation.total() == Approx(many.dissipation.total()).epsilon(1e-5).margin(10.0));
+        const CompositeState& s = few.state;
+        if (!is_separated(s)) continue;
+        const SymmetricTensor d = deviator(s.stress);
+        const double q = std::sqrt(1.5 * contract(d, d)), mean = trace(s.stress) / 3.0;
+        if (p.drucker_prager && mean < 0.0)
+          CHECK(q <= (1.0 + 1e-6) * (p.drucker_prager->yield - p.drucker_prager->beta * mean));
+        const DecohesionPlane plane{s.normal};
+        const double normal = plane.normal_part(s.stress), tangential = plane.tangential_part(s.stress);
+        CHECK(std::abs(tangential) + friction * normal <= 1e3);
+        pressed += s.plastic_strain > 0.0 && normal < -1e6;
+      }
+    }
+    CAPTURE(named.name);
+    CHECK(pressed > 0);
+  }
+}
+
 TEST_CASE("closed faces stick up to Coulomb's cone, and slide on it", "[material][decohesion][reading]") {
   MaterialParameters p = cohesive_glass(5.0e-6);
   const double friction = 0.3, squeeze = 1e-3, shear = 2e-3;
