@@ -82,12 +82,14 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   using Models::flow_localisation;
   using Models::free_faces;
   using Models::is_overloaded;
+  using Models::is_rubble;
   using Models::largest_normal_strain;
   using Models::localised_mode;
   using Models::parameters_;
   using Models::secant;
   using Models::secant_without_branches;
   using Models::separate;
+  using Models::share_of_shear;
   using Models::snap_back;
   using Models::start_decohesion;
   using Models::stays_compressed;
@@ -136,7 +138,7 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   bool find_localisation(const Leg& leg, double& end, Followed& at_end) const;
   bool find_critical(const Leg& leg, const Place& from, const Place& to, int halvings, double& first) const;
 
-  // localised.hpp
+  // localised.hpp, rubble.hpp
   void advance_localised(CompositeState& s, const SymmetricTensor& strain, double duration, double done,
                          PointReport& report) const;
   /// What a plane does at one instant when it loses its equilibrium.
@@ -148,6 +150,10 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
                              PointReport& report) const;
   double advance_separated(CompositeState& s, const SymmetricTensor& strain, Dissipation& dissipation) const;
   void rub_faces(CompositeState& s, const SymmetricTensor& strain, Dissipation& dissipation) const;
+  void advance_rubble(CompositeState& s, const SymmetricTensor& strain, double done,
+                      PointReport& report) const;
+  void load_rubble(CompositeState& s, Dissipation& dissipation) const;
+  double let_rubble_go(CompositeState& s, const SymmetricTensor& strain, Dissipation& dissipation) const;
   void flow_behind_crack(CompositeState& s, double outside_before, double fraction,
                          PointReport& report) const;
 

@@ -53,6 +53,7 @@ class CompositeEvolution final : public CompositeModes,
   using Models::open_plane;
   using Models::secant;
   using Models::separate;
+  using Models::share_of_shear;
   using Models::snap_back;
   using Models::softens_past_equilibrium;
   using Models::start_decohesion;

@@ -18,7 +18,10 @@ void CompositeClosedForm<D, Y, C>::advance_localised(CompositeState& s, const Sy
   // plane, a change of side.
   for (int pass = 0; pass < 256 && fraction < 1.0; ++pass) {
     const double left = 1.0 - fraction;
-    if (is_separated(s)) {
+    if (is_rubble(s)) {
+      advance_rubble(s, left * strain, at(fraction), report);
+      fraction = 1.0;
+    } else if (is_separated(s)) {
       const double closed_at = advance_separated(s, left * strain, report.dissipation);
       if (closed_at >= 0.0) report.record(EventKind::closure, at(fraction + left * closed_at), stress(s));
       fraction = 1.0;

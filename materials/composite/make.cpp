@@ -12,6 +12,7 @@
 #include "materials/composite/plane.hpp"
 #include "materials/composite/projection.hpp"
 #include "materials/composite/rates.hpp"
+#include "materials/composite/rubble.hpp"
 #include "materials/composite/start.hpp"
 #include "materials/composite/transitions.hpp"
 #include "materials/composite/yield_surface.hpp"

@@ -137,6 +137,7 @@ class CompositeModels {
   void open_plane(CompositeState& s, const DecohesionLaw::Advance& next) const;
   void snap_back(CompositeState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void free_faces(CompositeState& s) const;
+  double share_of_shear(const CompositeState& s, const SymmetricTensor& strain) const;
   void separate(CompositeState& s, const Moduli& moduli, Dissipation& dissipation) const;
   void enter_separated(CompositeMode& mode, const CompositeState& s, double fraction,
                        PointReport& report) const;

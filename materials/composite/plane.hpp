@@ -254,6 +254,16 @@ void CompositeModels<D, Y, C>::free_faces(CompositeState& s) const {
   }
 }
 
+/// Share of its deviator that rubble bears, strained so from its apex.
+template <bool D, Yielding Y, bool C>
+double CompositeModels<D, Y, C>::share_of_shear(const CompositeState& s,
+                                                const SymmetricTensor& strain) const {
+  const Moduli m = secant(false, s);
+  const double asked = std::sqrt(6.0) * m.shear * norm(deviator(strain));
+  const double borne = -parameters_.drucker_prager->beta * m.bulk * trace(strain);
+  return asked > borne ? borne / asked : 1.0;
+}
+
 /// lambda := 1: the traction on the plane is released. A snap-back sets free more than eq. 13 asks for.
 template <bool D, Yielding Y, bool C>
 void CompositeModels<D, Y, C>::separate(CompositeState& s, const Moduli& moduli,

@@ -257,13 +257,11 @@ void CompositeEvolution<D, Y, C>::select_proportional([[maybe_unused]] Composite
     mode.sheared = 1.0;
     if (mode.plane != CompositeMode::Plane::closed || !is_rubble(s) || trace(path.strain) > 0.0) return;
     if (norm(s.elastic_strain) > tolerance::rounding * norm(path.strain)) return;
-    const Moduli m = secant(false, s);
-    const double shear = norm(deviator(path.strain)), asked = std::sqrt(6.0) * m.shear * shear;
-    const double borne = -this->parameters_.drucker_prager->beta * m.bulk * trace(path.strain);
-    if (!(asked > borne)) return;
-    mode.sheared = borne / asked;
-    const double strain = (1.0 - fraction) * shear;
-    report.dissipation.plastic += m.shear * mode.sheared * (1.0 - mode.sheared) * strain * strain;
+    mode.sheared = share_of_shear(s, path.strain);
+    if (!(mode.sheared < 1.0)) return;
+    const double strain = (1.0 - fraction) * norm(deviator(path.strain));
+    report.dissipation.plastic +=
+        secant(false, s).shear * mode.sheared * (1.0 - mode.sheared) * strain * strain;
     if (s.plastic_strain == 0.0) report.record(EventKind::yield, fraction, stress(s));
   }
 }
