@@ -7,19 +7,21 @@ namespace vitrum {
 
 /// Plastic flow of a localised point: behind a separated plane the faces stay free of traction while the
 /// material flows. outside_before: what of the violation (Pa) falls onto the surface at once and loses all
-/// its energy; the rest flows along it.
+/// its energy; the rest flows along it. tension: the side of a mean strain that rounding
+/// alone tells from zero.
 template <bool D, Yielding Y, bool C>
-void CompositeModels<D, Y, C>::flow_behind_crack(CompositeState& s, double outside_before,
+void CompositeModels<D, Y, C>::flow_behind_crack(CompositeState& s, bool tension, double outside_before,
                                                  Dissipation& dissipation) const {
   const auto excess = [&](const CompositeState& c) {  // > 0 outside the yield surface, Pa
-    const bool tension = trace(c.elastic_strain) > 0.0;
-    return surface_acts(tension, c) ? yield_function(c, secant(tension, c)) : 0.0;
+    const double mean = trace(c.elastic_strain);
+    const bool side = std::abs(mean) <= tolerance::rounding * norm(c.elastic_strain) ? tension : mean > 0.0;
+    return surface_acts(side, c) ? yield_function(c, secant(side, c)) : 0.0;
   };
   const double admitted = tolerance::on_surface * elastic_.shear * norm(deviator(s.elastic_strain));
   const double violated = excess(s);
   if (!(violated > admitted)) return;
   if (!is_separated(s) || is_rubble(s)) {
-    dissipation.plastic += flow(s, secant(trace(s.elastic_strain) > 0.0, s), outside_before);
+    dissipation.plastic += flow(s, secant(tension, s), outside_before);
     return;
   }
 

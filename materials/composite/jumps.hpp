@@ -44,7 +44,7 @@ void CompositeEvolution<D, Y, C>::fall_at_constant_strain(CompositeMode& mode, C
     }
     report.dissipation.plastic += std::max(0.0, stored - stored_energy(s));
     Dissipation beyond;
-    flow_behind_crack(s, std::numeric_limits<double>::infinity(), beyond);
+    flow_behind_crack(s, mode.tension, std::numeric_limits<double>::infinity(), beyond);
     report.dissipation += beyond;
     resume_after_jump(mode, s, fraction, report);
   }

@@ -228,7 +228,7 @@ void CompositeClosedForm<D, Y, C>::flow_behind_crack(CompositeState& s, double o
                                                      double fraction, PointReport& report) const {
   if constexpr (has_yield) {
     const double flowed = s.plastic_strain, gap = s.opening_n;
-    flow_behind_crack(s, outside_before, report.dissipation);
+    flow_behind_crack(s, trace(s.elastic_strain) > 0.0, outside_before, report.dissipation);
     if (flowed == 0.0 && s.plastic_strain > 0.0) report.record(EventKind::yield, fraction, stress(s));
     if (is_separated(s) && gap > 0.0 && s.opening_n == 0.0)
       report.record(EventKind::closure, fraction, stress(s));

@@ -143,7 +143,8 @@ class CompositeModels {
                        PointReport& report) const;
 
   // flow_behind_crack.hpp
-  void flow_behind_crack(CompositeState& s, double outside_before, Dissipation& dissipation) const;
+  void flow_behind_crack(CompositeState& s, bool tension, double outside_before,
+                         Dissipation& dissipation) const;
   bool fell_behind_crack(const CompositeState& s, double flowed_before) const;
   SymmetricTensor flow_along_deviator(CompositeState& s, double excess) const;
 

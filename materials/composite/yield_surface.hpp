@@ -78,7 +78,7 @@ bool CompositeModels<D, Y, C>::fall_onto_surface(const CompositeMode& mode, Comp
   const double excess = yield_function(s, m);
   if (!(excess > tolerance::on_surface * m.shear * norm(deviator(s.elastic_strain)))) return false;
   if (C && mode.separated() && !is_rubble(s)) {
-    flow_behind_crack(s, excess, dissipation);
+    flow_behind_crack(s, mode.tension, excess, dissipation);
     return true;
   }
   const double stored = m.energy(s.elastic_strain);

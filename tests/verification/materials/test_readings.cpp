@@ -305,6 +305,24 @@ TEST_CASE("flow and sliding together: neither surface is left, in few increments
   }
 }
 
+TEST_CASE("the fall onto the pressure surface behind open faces is booked wherever increments end",
+          "[material][decohesion][reading][energy]") {
+  const MaterialParameters p = glass_with([](MaterialParameters& g) {
+    g.decohesion = DecohesionParameters{5.0e-8, 1.0, 1.0, 0.0, false};
+  });
+  const auto material = composite_of(p, cell);
+  const SymmetricTensor opened{0.003, 0.0, 0.0, -0.0008369370793948532},
+      end{-0.0030104979409553536, 0.0022612264605000173, 0.00031525324679692956, 0.00041099320101293895};
+  auto all = solvers(1e-8);
+  for (int steps = 40; steps < 70; ++steps) {
+    const Driven d =
+        drive(*material, {{opened, 1e-6}, {end - opened, 1e-6}}, steps, {}, all[0].integrator.get());
+    CAPTURE(steps);
+    REQUIRE(d.cause.empty());
+    CHECK(d.dissipation.total() == Approx(304.6e3).epsilon(2e-3));
+  }
+}
+
 TEST_CASE("closed faces stick up to Coulomb's cone, and slide on it", "[material][decohesion][reading]") {
   MaterialParameters p = cohesive_glass(5.0e-6);
   const double friction = 0.3, squeeze = 1e-3, shear = 2e-3;
