@@ -25,6 +25,7 @@
 ///
 ///     void judge(State& state, PointReport& report) const;
 ///     std::optional<std::size_t> damage_column() const; double damage(double value) const;
+///     std::optional<std::size_t> leaving_column() const;  // 1 there: the point leaves the computation
 ///     std::vector<std::size_t> stress_columns() const;  // what stress() reads; absent: all
 ///     Moduli secant_moduli(const State& state) const;   // where Hooke's law is its tangent
 ///     const EventDriven* event_driven() const;
@@ -123,6 +124,12 @@ class Batch final : public Material {
       return law_.damage(value);
     else
       return value;
+  }
+  std::optional<std::size_t> leaving_column() const override {
+    if constexpr (requires { law_.leaving_column(); })
+      return law_.leaving_column();
+    else
+      return std::nullopt;
   }
   const StrengthScatter* scatter() const override {
     if constexpr (requires { law_.scatter(); })

@@ -98,6 +98,9 @@ class Material {
   double damage(const PointState& state) const {
     return damage_column_ ? damage(state.variables[*damage_column_]) : 0.0;
   }
+  /// The column that says by 1 that a point is to leave the computation: it bears nothing, whatever comes.
+  /// None: points stay.
+  virtual std::optional<std::size_t> leaving_column() const { return std::nullopt; }
   /// How its strength scatters: by `strength_factor`, the last of its variables, which whoever makes a point
   /// draws; null: not.
   virtual const StrengthScatter* scatter() const { return nullptr; }

@@ -10,6 +10,7 @@
 #include "mpm/computation_error.hpp"
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
+#include "mpm/removal.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/velocity_filter.hpp"
 
@@ -128,6 +129,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
         state_.remap_loss += grid_->end_phase(y), ++state_.phases;
         if (system.flip != 1.0) mpm::refresh_grid_for_positions(system), mpm::filter_velocities(system);
         mpm::filter_pressures(system, began, system.time);
+        mpm::remove_particles(system);
       }
       goes_on = observer.step_done(system, length);
       if (!goes_on && !phase_over) {  // stopped on the way: particles must stand where they are

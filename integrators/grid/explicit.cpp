@@ -15,6 +15,7 @@
 #include "mpm/filter.hpp"
 #include "mpm/loads.hpp"
 #include "mpm/reactions.hpp"
+#include "mpm/removal.hpp"
 #include "mpm/tractions.hpp"
 #include "mpm/transfer.hpp"
 #include "mpm/velocity_filter.hpp"
@@ -78,6 +79,7 @@ void ExplicitIntegrator::take_step(System& system, double duration) const {
   mpm::book_reactions(system, duration);
   mpm::coast(system, duration);
   if (system.contact) system.contact->end_step(system);
+  mpm::remove_particles(system);
   ++system.step_index;
   if (system.contact && system.step_index % mpm::Contact::steps_between_looks == 0)
     system.contact->part(system);

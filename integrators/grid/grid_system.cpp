@@ -78,6 +78,7 @@ void GridSystem::begin_phase() {
     const std::size_t particles = system_.bodies[n].particles.size;
     for (auto& column : deformations_[n].committed_strain) column.assign(particles, 0.0);
     deformations_[n].committed_turn.assign(particles, 0.0);
+    rest_removed(n);
   }
   start_time_ = committed_time_ = system_.time;
   committed_tail_.assign(tail_, 0.0), deformation_ = driven_gain_ = 0.0;
@@ -85,6 +86,20 @@ void GridSystem::begin_phase() {
   mean_mass_ = nodes_.size() == 0 ? 1.0
                                   : std::accumulate(nodes_.mass.begin(), nodes_.mass.end(), 0.0) /
                                         static_cast<double>(nodes_.size());
+}
+
+/// Particles that have left the computation do not move.
+void GridSystem::rest_removed(std::size_t body) {
+  const auto rest = [&](auto& columns) {
+    for (std::vector<double>& column : columns)
+      if (!column.empty())
+        std::fill(column.begin() + static_cast<std::ptrdiff_t>(system_.bodies[body].present()), column.end(),
+                  0.0);
+  };
+  rest(deformations_[body].gradient);
+  if (motions_.empty()) return;
+  Motion& m = motions_[body];
+  rest(m.displacement), rest(m.velocity), rest(m.velocity_gradient);
 }
 
 void GridSystem::start(double* y) {

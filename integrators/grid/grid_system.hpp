@@ -28,7 +28,8 @@ namespace vitrum {
 /// q' = f/m that the particles get when the phase ends are integrals. With the stress of each particle the
 /// material's response to (committed state, strain since the last commit, time since then), the strain being
 /// U - 1 of the phase's deformation gradient F = R U. Forces are the derivative of the energy as a function
-/// of that strain, so that an elastic phase conserves energy for any rotation (docs/theory/strain-and-stress.md).
+/// of that strain, so that an elastic phase conserves energy for any rotation
+/// (docs/theory/strain-and-stress.md).
 class GridSystem final : public sundials::ReducibleSystem {
  public:
   /// system must outlive it. tolerance: relative to the scales. travel: cells that a node goes in a phase.
@@ -76,6 +77,7 @@ class GridSystem final : public sundials::ReducibleSystem {
 
  private:
   void stretch_domains();
+  void rest_removed(std::size_t body);
   struct Deformation {
     std::array<std::vector<double>, 5> gradient;  ///< (rr, rz, zr, zz, tt)
     mpm::FiniteStrain at(std::size_t i) const {

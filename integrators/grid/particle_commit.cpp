@@ -9,6 +9,7 @@
 #include "mpm/contact/contact.hpp"
 #include "mpm/domain.hpp"
 #include "mpm/filter.hpp"
+#include "mpm/removal.hpp"
 #include "mpm/stress.hpp"
 #include "mpm/velocity_filter.hpp"
 
@@ -59,9 +60,10 @@ bool ParticleSystem::commit(double t, double* y) {
   const bool carried = carry();
   const bool filtered = mpm::filter_pressures(system_, from, t);
   system_.record.kinetic = kinetic_energy();
+  const bool removed = mpm::remove_particles(system_);
   const bool parted = system_.contact && (system_.step_index + 1) % mpm::Contact::steps_between_looks == 0 &&
                       system_.contact->part(system_);
-  return replaced || smoothed || carried || filtered || parted;
+  return replaced || smoothed || carried || filtered || removed || parted;
 }
 
 /// Whether velocities have changed.

@@ -147,11 +147,19 @@ bool ParticleSystem::rates(double t, const double* y, double* rates) {
   double power = mpm::accelerate(system_);
   reactions_.rates(system_, rates + size_);
   mpm::gather_rates(system_, targets);
+  rest_removed(rates);
   if (system_.tractions) power += system_.tractions->power(motions(targets));
   mirror_rates(y, rates);
   if (works_) rates[tail_] = power;
   not_finite_ = is_finite(rates) ? std::nullopt : first_not_finite(rates, size_);
   return !not_finite_;
+}
+
+/// Particles that have left the computation stay as they are.
+void ParticleSystem::rest_removed(double* rates) const {
+  for (std::size_t n = 0; n < system_.bodies.size(); ++n)
+    for (std::size_t a = 0; a < arrays(); ++a)
+      std::fill(rates + place(n, a) + system_.bodies[n].present(), rates + place(n, a + 1), 0.0);
 }
 
 std::vector<mpm::ParticleMotion> ParticleSystem::motions(std::span<const mpm::ParticleRates> rates) {

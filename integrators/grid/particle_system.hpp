@@ -46,8 +46,8 @@ class ParticleSystem final : public sundials::ArkSystem {
   /// load_change: s, no load's rate jumps before.
   void begin(double* y, double load_change = std::numeric_limits<double>::infinity());
   /// Makes y at time t the system's state: particles, stress, internal variables, record of the step. True: a
-  /// particle has crossed the axis and was replaced by its image, or is carried by held nodes from now on;
-  /// the solver must start anew, from `begin`.
+  /// particle has crossed the axis and was replaced by its image, is carried by held nodes from now on, or
+  /// has left; the solver must start anew, from `begin`.
   bool commit(double t, double* y);
 
   /// Adds the estimated local errors of a step.
@@ -90,6 +90,7 @@ class ParticleSystem final : public sundials::ArkSystem {
   void try_stress(double t, bool changed);
   std::vector<mpm::Configuration> places(const double* y);
   static std::vector<mpm::ParticleMotion> motions(std::span<const mpm::ParticleRates> rates);
+  void rest_removed(double* rates) const;
   void mirror_rates(const double* y, double* rates) const;
   double kinetic_energy();
   bool reflect(double* y);

@@ -48,6 +48,11 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   std::optional<std::size_t> damage_column() const {
     return has_damage ? std::optional<std::size_t>(Column::crack_density) : std::nullopt;
   }
+  std::optional<std::size_t> leaving_column() const {
+    return has_decohesion && decohesion_.parameters().separated == Separated::removed
+               ? std::optional<std::size_t>(Column::decohesion)
+               : std::nullopt;
+  }
   double damage(double crack_density) const {
     return has_damage && crack_density > 0.0 ? damage_.damage(crack_density / crack_density_limit) : 0.0;
   }
@@ -101,7 +106,8 @@ class CompositeClosedForm : public CompositeModels<has_damage, yielding, has_dec
   /// Columns of the variables that elastic runs look at.
   struct Column {
     static constexpr std::size_t crack_density = 0, max_rate = 1, plastic_strain = has_damage ? 2 : 0,
-                                 effective_length = plastic_strain + (has_yield ? 1 : 0) + 5;
+                                 decohesion = plastic_strain + (has_yield ? 1 : 0),
+                                 effective_length = decohesion + 5;
   };
 
   /// A straight piece of the strain path on one side of zero mean strain.

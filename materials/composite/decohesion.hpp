@@ -15,7 +15,8 @@ enum class Separated : unsigned char {
   faces,           ///< two faces: free of traction while open, elastic under pressure once closed
   pressure,        ///< rubble: pressure, once the void is closed, and nothing else
   drucker_prager,  ///< rubble: that, and shear up to q = beta P
-  nothing
+  nothing,
+  removed  ///< nothing, and its mass is gone as well
 };
 
 /// Scene table [material.NAME.decohesion]: from localisation to separation, eqs. 10-18.
@@ -134,6 +135,9 @@ class DecohesionLaw {
                                double length) const;
 
   const DecohesionParameters& parameters() const { return parameters_; }
+  bool is_dust() const {
+    return parameters_.separated == Separated::nothing || parameters_.separated == Separated::removed;
+  }
   bool has_faces() const { return parameters_.separated == Separated::faces; }
   /// Whether a localised point may flow: the material behind the plane, or rubble.
   bool flows(bool is_separated) const {

@@ -168,11 +168,10 @@ double CompositeClosedForm<D, Y, C>::advance_separated(CompositeState& s, const 
   const PlaneTraction change = traction(plane, strain, secant_moduli(s));
   s.elastic_strain += strain;
   free_faces(s);
-  const Separated bears = decohesion_.parameters().separated;
-  if (bears == Separated::nothing) return -1.0;
+  if (decohesion_.is_dust()) return -1.0;
   const bool closes = gap > 0.0 && !(s.opening_n > 0.0), rubs = decohesion_.friction() > 0.0;
   double closed_at = -1.0;
-  if (closes && bears != Separated::faces) {
+  if (closes && !decohesion_.has_faces()) {
     closed_at = std::clamp(-gap / (trace(strain) * s.effective_length), 0.0, 1.0);
   } else if (closes) {
     // Between traction-free faces the gap shrinks linearly along the path until they meet.

@@ -133,7 +133,7 @@ SymmetricTensor CompositeModels<D, Y, C>::strain_left_by_faces(const CompositeMo
                                 : strain;
     }
     const bool presses = bears == Separated::pressure && is_closed;
-    gap = bears == Separated::nothing ? L * plane.normal_part(strain) : presses ? 0.0 : L * trace(strain);
+    gap = decohesion_.is_dust() ? L * plane.normal_part(strain) : presses ? 0.0 : L * trace(strain);
     slip = 2.0 * L * plane.tangential_part(strain);
     return (presses ? trace(strain) / 3.0 : 0.0) * identity() + 0.0 * strain;  // what is not a number shows
   }
@@ -223,8 +223,8 @@ void CompositeModels<D, Y, C>::free_faces(CompositeState& s) const {
       return;
     }
     s.opening_t += 2.0 * length * plane.tangential_part(s.elastic_strain);
-    s.opening_n = bears == Separated::nothing ? s.opening_n + length * plane.normal_part(s.elastic_strain)
-                                              : length * std::max(volumetric, 0.0);
+    s.opening_n = decohesion_.is_dust() ? s.opening_n + length * plane.normal_part(s.elastic_strain)
+                                        : length * std::max(volumetric, 0.0);
     const double pressed = bears == Separated::pressure ? std::min(volumetric, 0.0) / 3.0 : 0.0;
     s.elastic_strain = pressed * identity() + 0.0 * s.elastic_strain;  // what is not a number shows
     return;

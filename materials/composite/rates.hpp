@@ -221,7 +221,7 @@ void CompositeEvolution<D, Y, C>::guards(const CompositeMode& mode, const Compos
         g.add(CompositeGuard::normal_traction_sign,
               (mode.pulled ? -traction_now.normal : traction_now.normal) / s.cohesive_strength);
       g.add(CompositeGuard::separation, s.decohesion - 1.0);
-    } else if (decohesion_.parameters().separated == Separated::nothing) {
+    } else if (decohesion_.is_dust()) {
       // Nothing that happens to the point changes what it bears.
     } else if (mode.plane == Plane::open) {
       g.add(CompositeGuard::closure, -s.opening_n * per_size / s.effective_length);

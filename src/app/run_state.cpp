@@ -54,7 +54,7 @@ void take(const Archive& archive, const char* name, std::int64_t& to) {
   to = archive.count(name);
 }
 
-constexpr const char *coasting = "run.coasting", *contact = "run.contact";
+constexpr const char *coasting = "run.coasting", *contact = "run.contact", *removed = "run.removed";
 
 }  // namespace
 
@@ -63,6 +63,7 @@ void save(const RunState& state, Archive& archive) {
                 [&](const char* name, const auto& value) { archive.put(name, static_cast<double>(value)); });
   archive.put(coasting, state.coasting);
   archive.put(contact, state.contact);
+  if (!state.removed.empty()) archive.put(removed, state.removed);
 }
 
 RunState restored(const Archive& archive, std::size_t bodies) {
@@ -70,6 +71,7 @@ RunState restored(const Archive& archive, std::size_t bodies) {
   visit_numbers(state, [&](const char* name, auto& value) { take(archive, name, value); });
   state.coasting = archive.numbers(coasting, bodies);
   state.contact = archive.numbers(contact);
+  if (archive.has(removed)) state.removed = archive.numbers(removed);
   return state;
 }
 

@@ -10,6 +10,7 @@ namespace vitrum::app {
 /// What a run remembers besides its particles and its observers.
 struct RunState {
   std::vector<double> coasting;  ///< by body: 1 where it coasts, else 0
+  std::vector<double> removed;   ///< mpm::removed_counts
   std::vector<double> contact;   ///< mpm::Contact::state
   IntegratorState integrator;
   std::int64_t outputs = 0;       ///< planned outputs written, the one at the start not counted

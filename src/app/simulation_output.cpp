@@ -5,6 +5,7 @@
 
 #include "app/simulation.hpp"
 #include "mpm/contact/contact.hpp"
+#include "mpm/removal.hpp"
 #include "observe/fragments.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/input_error.hpp"
@@ -77,6 +78,7 @@ void Simulation::write_checkpoint() {
   state_.solver = system_.constitutive_solver;
   state_.coasting.clear();
   for (const Body& body : system_.bodies) state_.coasting.push_back(body.coasting ? 1.0 : 0.0);
+  state_.removed = mpm::removed_counts(system_);
   if (system_.contact) state_.contact = system_.contact->state(system_);
   RunState stored = state_;
   stored.earlier_seconds = total_seconds();

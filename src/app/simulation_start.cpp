@@ -7,6 +7,7 @@
 #include "mpm/coasting.hpp"
 #include "mpm/contact/contact.hpp"
 #include "mpm/initial_state.hpp"
+#include "mpm/removal.hpp"
 #include "output/atomic_file.hpp"
 #include "output/particle_fields.hpp"
 #include "scene/input_error.hpp"
@@ -53,6 +54,8 @@ void Simulation::resume() {
   system_.constitutive_evaluations = state_.evaluations;
   system_.constitutive_events = state_.events;
   system_.constitutive_solver = state_.solver;
+  if (!mpm::restore_removed(system_, state_.removed))
+    throw FileError("checkpoint: 'run.removed' does not fit this scene");
   mpm::restore_coasting(system_, state_.coasting);
   if (system_.contact && !system_.contact->restore(system_, state_.contact))
     throw FileError("checkpoint: 'run.contact' does not fit this scene");

@@ -11,6 +11,7 @@
 #include "mpm/contact/contact.hpp"
 #include "mpm/domain.hpp"
 #include "mpm/filter.hpp"
+#include "mpm/removal.hpp"
 #include "mpm/stress.hpp"
 #include "observe/bodies.hpp"
 #include "scene/choices.hpp"
@@ -144,6 +145,7 @@ output::RunSummary Simulation::summary(output::RunStatus status, const std::stri
   for (std::size_t n = 0; n < system_.bodies.size(); ++n) {
     const Body& body = system_.bodies[n];
     s.bodies.push_back({body.name, body.particles.size, motion_of(body, whole_), s.failure.bodies[n]});
+    if (mpm::removes(body)) s.bodies.back().removed = {body.removed, whole_ * mpm::removed_mass(body)};
   }
   if (system_.contact)
     for (std::size_t n = 0; n < system_.contact->pairs().size(); ++n) {
@@ -184,6 +186,11 @@ std::string Simulation::summary_text(const output::RunSummary& s) const {
                      : fmt::format(", strain {:.2g}", s.error->strain));
   if (system_.filters || system_.flip < 1.0)
     text += fmt::format("filters removed {:.5g} {}\n", e.filtered, unit);
+  for (const output::BodySummary& body : s.bodies)
+    if (body.removed)
+      text += fmt::format("'{}': {} particles removed, {:.5g} {} of {:.5g}\n", body.name, body.removed->first,
+                          body.removed->second, system_.axisymmetric ? "kg" : "kg/m",
+                          body.removed->second + body.motion.mass);
   const FailureReport& f = s.failure;
   for (const output::BodySummary& body : s.bodies)
     if (body.failure.first_damage || body.failure.first_localisation)

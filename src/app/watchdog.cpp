@@ -12,7 +12,7 @@ std::optional<std::string> Watchdog::look(const System& system, const EnergyLedg
                                           double step) const {
   const EnergyTotals& e = ledger.totals();
   if (!std::isfinite(e.kinetic + e.elastic + e.external + e.plastic + e.damage + e.fracture + e.contact +
-                     e.friction + e.filtered))
+                     e.friction + e.filtered + e.removed))
     return describe(system, "the energy is not finite") + "; " + integrator_.advice(system, step);
   const double growth = ledger.growth(integrator_.tolerated_energy(system));
   if (growth <= max_growth_) return std::nullopt;

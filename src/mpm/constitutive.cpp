@@ -72,7 +72,7 @@ template <class Book>
 void take_increments(System& system, std::size_t body_index, const ParticleColumns& columns, double duration,
                      Book&& book) {
   const Body& body = system.bodies[body_index];
-  const std::size_t size = body.particles.size, chunks = (size + chunk_size - 1) / chunk_size;
+  const std::size_t size = body.present(), chunks = (size + chunk_size - 1) / chunk_size;
   std::vector<BatchReport>& reports = reports_of(chunks);
   system.team->for_each_chunk(chunks, [&](std::size_t k) {
     reports[k].clear();
@@ -99,6 +99,8 @@ void open_record(StepRecord& record) {
   record.elastic = 0.0;
   record.dissipated = {};
   record.events.clear();
+  record.removed = 0.0;
+  record.left.clear();
 }
 
 /// All but the elastic energy.
@@ -259,8 +261,8 @@ void gather_tangents(System& system, const Trial& trial, double duration,
   tangents.resize(system.bodies.size());
   for (std::size_t n = 0; n < system.bodies.size(); ++n) {
     Body& body = system.bodies[n];
-    const std::size_t size = body.particles.size;
-    tangents[n].resize(size);
+    const std::size_t size = body.present();
+    tangents[n].resize(body.particles.size);
     const ParticleColumns columns = columns_of(body.particles, trial.of(n));
     system.team->for_each_chunk((size + chunk_size - 1) / chunk_size, [&](std::size_t k) {
       body.material->tangent(columns, k * chunk_size, std::min(size, (k + 1) * chunk_size), duration,

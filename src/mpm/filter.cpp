@@ -78,7 +78,9 @@ double ringing_energy(const System& system) {
   for (const Body& body : system.bodies) {
     const Particles& p = body.particles;
     std::vector<double> pressure = pressures(body);
-    const CellAverage average(*system.team, body, system.cell, std::vector<char>(p.size, 1));
+    std::vector<char> counted(p.size, 1);
+    std::fill(counted.begin() + static_cast<std::ptrdiff_t>(body.present()), counted.end(), 0);
+    const CellAverage average(*system.team, body, system.cell, counted);
     const std::vector<double> own = average.differences(std::move(pressure), 1);
     const double bulk = elastic_moduli(body.material->parameters().elastic).bulk,
                  specific_volume = 1.0 / body.material->density();

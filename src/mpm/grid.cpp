@@ -87,7 +87,7 @@ void Grid::fill_lists(const std::vector<Body>& bodies) {
   std::vector<std::uint32_t> next(offset_.begin(), offset_.end() - 1);
   k = 0;
   for (std::size_t body = 0; body < body_count_; ++body)
-    if (!bodies[body].coasting) k = append(bodies[body].particles, body, k, next);
+    if (!bodies[body].coasting) k = append(bodies[body], body, k, next);
   scattered_ = 0;
   for (std::size_t tile = 0; tile < tile_block_.size(); ++tile)
     for (std::size_t body = 0; body < body_count_; ++body) scattered_ += scattered_in(particles(tile, body));
@@ -102,23 +102,25 @@ std::size_t Grid::scattered_in(Range list) {
   return scattered;
 }
 
-/// Enters the particles of a body into their lists by rising identity. home: place of the body's first entry
-/// in home_; returns that of the next body's.
-std::size_t Grid::append(const Particles& p, std::size_t body, std::size_t home,
+/// Enters the particles of a body into their lists by rising identity. number: the body's; home: place of its
+/// first entry in home_; returns that of the next body's.
+std::size_t Grid::append(const Body& body, std::size_t number, std::size_t home,
                          std::vector<std::uint32_t>& next) {
+  const Particles& p = body.particles;
   const auto enter = [&](std::uint32_t particle) {
     const auto tile = static_cast<std::size_t>(home_[home + particle]);
-    index_[next[tile * body_count_ + body]++] = particle;
+    index_[next[tile * body_count_ + number]++] = particle;
   };
-  const auto size = static_cast<std::uint32_t>(p.size);
+  const auto size = static_cast<std::uint32_t>(p.size), present = static_cast<std::uint32_t>(body.present());
   if (std::is_sorted(p.identity.begin(), p.identity.end())) {
-    for (std::uint32_t i = 0; i < size; ++i) enter(i);
+    for (std::uint32_t i = 0; i < present; ++i) enter(i);
   } else {
     place_.resize(size);
     for (std::uint32_t i = 0; i < size; ++i) place_[p.identity[i]] = i;
-    for (std::uint32_t identity = 0; identity < size; ++identity) enter(place_[identity]);
+    for (std::uint32_t identity = 0; identity < size; ++identity)
+      if (place_[identity] < present) enter(place_[identity]);
   }
-  return home + size;
+  return home + present;
 }
 
 /// Makes these the blocks that hold particles; adds those whose nodes their particles may touch.

@@ -47,6 +47,8 @@ class Grid {
   std::size_t listed() const { return index_.size(); }
   /// How often particles have changed places in memory.
   std::size_t times_sorted() const { return times_sorted_; }
+  /// To be told by who else moves them.
+  void note_sorted() { ++times_sorted_; }
 
   /// Which tiles each thread has in its cache: those of the pieces of strips from shares[n] on, for thread n.
   void share_tiles(std::span<const std::size_t> shares);
@@ -121,7 +123,7 @@ class Grid {
  private:
   void find_blocks(const std::vector<Body>& bodies);
   void fill_lists(const std::vector<Body>& bodies);
-  std::size_t append(const Particles& p, std::size_t body, std::size_t home,
+  std::size_t append(const Body& body, std::size_t number, std::size_t home,
                      std::vector<std::uint32_t>& next);
   void set_blocks(std::vector<Block>&& with_particles);
   void add_neighbours(bool by_row);

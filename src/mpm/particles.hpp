@@ -80,6 +80,9 @@ struct Body {
   /// Velocity fields of its particles, by identity, once it has come into pieces; empty: all have `field`.
   std::vector<std::int32_t> fragments = {};
 
+  /// Particles that have left the computation (mpm/removal.hpp): they stand behind all others in storage.
+  std::size_t removed = 0;
+
   /// The column of a variable by its name; empty where the material has none.
   const std::vector<double>& column(std::string_view variable) const {
     static const std::vector<double> none;
@@ -94,8 +97,10 @@ struct Body {
     const std::vector<double>& own = particles.domain[axis];
     return own.empty() ? particle_half_size : own[particle];
   }
-  /// Particles that take part in the grid.
-  std::size_t on_grid() const { return coasting ? 0 : particles.size; }
+  /// Particles that have not left the computation, and those that take part in the grid: the first in
+  /// storage.
+  std::size_t present() const { return particles.size - removed; }
+  std::size_t on_grid() const { return coasting ? 0 : present(); }
 };
 
 }  // namespace vitrum

@@ -18,17 +18,27 @@ struct BodyEvent {
   Event event;
 };
 
+/// A particle that has left the computation, as it was then.
+struct RemovedParticle {
+  std::size_t body;
+  std::uint32_t identity;
+  double mass;                            ///< kg (per radian or per metre)
+  std::array<double, 2> place, velocity;  ///< m, m/s
+};
+
 /// What the last step did, summed over all bodies in a fixed order. Joules per radian (axisymmetric) or per
 /// metre.
 struct StepRecord {
-  double kinetic = 0.0;           ///< at the end of the step
-  double elastic = 0.0;           ///< stored, at the end of the step
-  Dissipation dissipated;         ///< in the step
-  double contact = 0.0;           ///< stored between bodies, at the end of the step
-  double friction = 0.0;          ///< dissipated between bodies in the step
-  double filtered = 0.0;          ///< removed by the filters of pressures and velocities in the step
-  double external_work = 0.0;     ///< of gravity, tractions and prescribed velocities in the step
-  std::vector<BodyEvent> events;  ///< in order of time, body and identity
+  double kinetic = 0.0;               ///< at the end of the step
+  double elastic = 0.0;               ///< stored, at the end of the step
+  Dissipation dissipated;             ///< in the step
+  double contact = 0.0;               ///< stored between bodies, at the end of the step
+  double friction = 0.0;              ///< dissipated between bodies in the step
+  double filtered = 0.0;              ///< removed by the filters of pressures and velocities in the step
+  double removed = 0.0;               ///< went with particles that left in the step
+  double external_work = 0.0;         ///< of gravity, tractions and prescribed velocities in the step
+  std::vector<BodyEvent> events;      ///< in order of time, body and identity
+  std::vector<RemovedParticle> left;  ///< in the step, in order of body and identity
   /// Impulse of each boundary on the bodies, two components each, since the record was last read: who reads
   /// sets it back. N s (per radian or per metre).
   std::vector<double> impulses;

@@ -49,6 +49,7 @@ void Tractions::load(System& system, double time, std::span<const Configuration>
     for (std::size_t k = 0; k < t.points.size(); ++k) {
       const LoadedPoint& point = t.points[k];
       const std::size_t i = place_[n][k];
+      if (i >= system.bodies[t.body].present()) continue;  // its carrier has left
       const double turn = bodies[t.body].turn[i], side = bodies[t.body].mirrored[i];
       const double c = std::cos(turn), s = std::sin(turn);
       const Vector arm{c * side * point.offset[0] - s * point.offset[1],

@@ -22,9 +22,10 @@ void project_freely(System& system) {
 }
 
 /// Energy removed, J (per radian or per metre).
-double blend(Particles& p, const std::array<std::vector<double>, 2>& seen, double flip) {
+double blend(Body& body, const std::array<std::vector<double>, 2>& seen, double flip) {
+  Particles& p = body.particles;
   double removed = 0.0;
-  for (std::size_t i = 0; i < p.size; ++i)
+  for (std::size_t i = 0; i < body.on_grid(); ++i)
     for (std::size_t c = 0; c < 2; ++c) {
       const double before = p.velocity[c][i], after = seen[c][i] + flip * (before - seen[c][i]);
       removed += 0.5 * p.mass[i] * (before - after) * (before + after);
@@ -57,7 +58,7 @@ bool filter_velocities(System& system) {
   gather_gradient(system, targets);
   double removed = 0.0;
   for (std::size_t n = 0; n < system.bodies.size(); ++n)
-    if (!system.bodies[n].coasting) removed += blend(system.bodies[n].particles, seen[n], system.flip);
+    removed += blend(system.bodies[n], seen[n], system.flip);
   system.record.filtered += removed;
   system.record.kinetic -= removed;
   return true;

@@ -12,7 +12,7 @@ namespace vitrum {
 BodyMotion motion_of(const Body& body, double whole) {
   BodyMotion motion;
   const Particles& p = body.particles;
-  for (std::size_t i = 0; i < p.size; ++i) {
+  for (std::size_t i = 0; i < body.present(); ++i) {
     const double m = whole * p.mass[i];
     motion.mass += m;
     for (std::size_t k = 0; k < 2; ++k) {

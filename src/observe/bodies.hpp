@@ -4,7 +4,8 @@
 
 namespace vitrum {
 
-/// How a body moves as a whole (axisymmetric: the whole body; plane strain: per metre).
+/// How a body moves as a whole, without particles that have left (axisymmetric: the whole body; plane strain:
+/// per metre).
 struct BodyMotion {
   double mass = 0.0;                 ///< kg
   std::array<double, 2> momentum{};  ///< kg m/s, summed over particles: the radial one is that of no vector

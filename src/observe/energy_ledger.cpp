@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mpm/point.hpp"
+#include "mpm/removal.hpp"
 #include "mpm/transfer.hpp"
 
 namespace vitrum {
@@ -33,7 +34,13 @@ double stored_energy(const System& system) {
   return sum;
 }
 
-EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals) : totals_(totals) {
+TableInfo EnergyLedger::table_of(bool removes) {
+  const std::span<const Column> all(columns);
+  return {table_info.name, table_info.description, removes ? all : all.first(all.size() - 1)};
+}
+
+EnergyLedger::EnergyLedger(const System& system, const EnergyTotals& totals)
+    : removes_(mpm::removes(system)), table_(table_of(removes_)), totals_(totals) {
   double mass = 0.0, speed = 0.0;
   for (const Body& body : system.bodies)
     for (const double m : body.particles.mass) mass += m;
@@ -67,6 +74,7 @@ void EnergyLedger::step(const System& system, double /*duration*/) {
   totals_.contact = r.contact;
   totals_.friction += r.friction;
   totals_.filtered += r.filtered;
+  totals_.removed += r.removed;
   totals_.plastic += r.dissipated.plastic;
   totals_.damage += r.dissipated.damage;
   totals_.fracture += r.dissipated.fracture;
@@ -102,25 +110,34 @@ constexpr NamedEnergy energies[] = {
     {"energy.snap_back", &EnergyTotals::snap_back}, {"energy.contact", &EnergyTotals::contact},
     {"energy.friction", &EnergyTotals::friction},   {"energy.filtered", &EnergyTotals::filtered},
     {"energy.external", &EnergyTotals::external},   {"energy.largest_work", &EnergyTotals::largest_work},
-    {"energy.rounding", &EnergyTotals::rounding}};
+    {"energy.rounding", &EnergyTotals::rounding},   {"energy.removed", &EnergyTotals::removed}};
 constexpr const char* growth_name = "energy.max_growth";  // a ratio
+
+/// Those that an account has.
+std::span<const NamedEnergy> entries(bool removes) {
+  const std::span<const NamedEnergy> all(energies);
+  return removes ? all : all.first(all.size() - 1);
+}
 
 }  // namespace
 
 void EnergyLedger::save(Archive& archive) const {
-  for (const auto& [name, member] : energies) archive.put(name, totals_.*member);
+  for (const auto& [name, member] : entries(removes_)) archive.put(name, totals_.*member);
   archive.put(growth_name, totals_.max_growth);
 }
 
 void EnergyLedger::restore(const Archive& archive) {
-  for (const auto& [name, member] : energies) totals_.*member = archive.number(name);
+  for (const auto& [name, member] : entries(removes_)) totals_.*member = archive.number(name);
   totals_.max_growth = archive.number(growth_name);
 }
 
 void EnergyLedger::tell(const System& system) {
   const EnergyTotals e = scaled(totals_, whole_body(system));
-  table_.row(system.time, system.step_index, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture,
-             e.external, e.residual(), e.contact, e.friction, e.filtered);
+  const auto tell = [&](const auto&... more) {
+    table_.row(system.time, system.step_index, e.kinetic, e.elastic, e.plastic, e.damage, e.fracture,
+               e.external, e.residual(), e.contact, e.friction, e.filtered, more...);
+  };
+  removes_ ? tell(e.removed) : tell();
 }
 
 void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantities) const {
@@ -139,6 +156,7 @@ void EnergyLedger::declare(const System& system, std::vector<Quantity>& quantiti
       {"residual", unit, "initial + external - all of the above: what the numerics made", e.residual()},
       {"max_growth", "1", "largest (kinetic + elastic) / initial so far", e.max_growth}};
   quantities.insert(quantities.end(), std::begin(own), std::end(own));
+  if (removes_) quantities.push_back({"removed", unit, "energy gone with particles that left", e.removed});
 }
 
 EnergyTotals scaled(const EnergyTotals& t, double factor) {

@@ -24,7 +24,9 @@ class EnergyLedger final : public Observer {
       {"residual", "J", "initial + external - all others: what the numerics made (negative) or lost", true},
       {"contact", "J", "stored between bodies", true},
       {"friction", "J", "dissipated by friction between bodies so far", true},
-      {"filtered", "J", "removed by the filters so far", true}};
+      {"filtered", "J", "removed by the filters so far", true},
+      {"removed", "J", "gone with particles that left so far; only where `decohesion.separated` is `removed`",
+       true}};
   static constexpr TableInfo table_info{"energy", "the energy account, a thousand rows between start and end",
                                         columns};
   static std::unique_ptr<Observer> make(const Scene& scene, const System& system);
@@ -54,7 +56,10 @@ class EnergyLedger final : public Observer {
   double growth(double allowance = 0.0) const;
 
  private:
-  Table table_{table_info};
+  static TableInfo table_of(bool removes);
+
+  bool removes_;  ///< particles may leave: the account has one entry more
+  Table table_;
   EnergyTotals totals_;
   double driving_ = 0.0;  // J (per radian or per metre)
 };

@@ -24,11 +24,12 @@ struct EnergyTotals {
   double contact = 0.0;       ///< stored between bodies
   double friction = 0.0;      ///< dissipated between bodies so far
   double filtered = 0.0;      ///< removed by the filters so far
+  double removed = 0.0;       ///< gone with particles that left so far
 
   /// What the numerics made (negative) or destroyed (positive).
   constexpr double residual() const {
     return initial + external -
-           (kinetic + elastic + contact + plastic + damage + fracture + friction + filtered);
+           (kinetic + elastic + contact + plastic + damage + fracture + friction + filtered + removed);
   }
   /// What the residual is relative to: the energy that the scene began with or was given. What is taken back
   /// from it later does not count: a body that swings or a wall that returns ends with no work at all.

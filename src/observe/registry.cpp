@@ -7,6 +7,7 @@
 #include "observe/failure.hpp"
 #include "observe/probes.hpp"
 #include "observe/reactions.hpp"
+#include "observe/removed.hpp"
 
 namespace vitrum {
 namespace {
@@ -27,6 +28,7 @@ constexpr ObserverKind kinds[] = {
     kind<ReactionHistory>(),   // reactions.csv
     kind<ContactHistories>(),  // contacts.csv
     kind<ProbeHistory>(),      // probes.csv
+    kind<RemovedParticles>(),  // removed.csv
 };
 
 }  // namespace

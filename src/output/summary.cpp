@@ -147,6 +147,10 @@ Json body_block(const BodySummary& body, const std::vector<Fragment>& fragments)
   add_measures(block, body.failure);
   const auto pieces = std::ranges::count(fragments, body.name, &Fragment::body);
   block["fragments"] = body.failure.separated > 0 ? pieces : 1;
+  if (body.removed) {
+    block["removed"] = body.removed->first;
+    block["removed_mass"] = number(body.removed->second);
+  }
   return block;
 }
 
@@ -159,6 +163,9 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
                         {"impulse", {number(contact.impulse[0]), number(contact.impulse[1])}},
                         {"friction_work", number(contact.friction_work)},
                         {"least_gap", number(contact.least_gap)}});
+  Json energy = energy_block(summary.energy, summary.ringing);
+  if (std::ranges::any_of(summary.bodies, [](const BodySummary& body) { return body.removed.has_value(); }))
+    energy["removed"] = number(summary.energy.removed);
   Json bodies = Json::object(), provenance = Json::object();
   for (const BodySummary& body : summary.bodies)
     bodies[body.name] = body_block(body, summary.failure.fragments);
@@ -174,7 +181,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
           {"threads", summary.threads},
           {"integrator", integrator_block(summary)},
           {"constitutive", constitutive_block(summary.constitutive_method, summary.constitutive)},
-          {"energy", energy_block(summary.energy, summary.ringing)},
+          {"energy", energy},
           {"failure", failure_block(summary.failure)},
           {"bodies", bodies},
           {"contacts", contacts},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "integrators/grid/grid_integrator.hpp"
@@ -23,6 +24,8 @@ struct BodySummary {
   std::size_t particles = 0;
   BodyMotion motion;
   FailureMeasures failure;
+  /// Particles that have left, and their mass, kg; none: none can.
+  std::optional<std::pair<std::size_t, double>> removed = std::nullopt;
 };
 
 /// What has passed between two bodies (axisymmetric: whole bodies; plane strain: per metre).
@@ -61,8 +64,8 @@ struct RunSummary {
 /// Fragments listed one by one; their number and masses count all of them.
 inline constexpr std::size_t listed_fragments = 100;
 
-/// The keys of docs/reference/result.md in its order. What did not happen, and every number that is not finite,
-/// is null.
+/// The keys of docs/reference/result.md in its order. What did not happen, and every number that is not
+/// finite, is null.
 nlohmann::ordered_json to_json(const RunSummary& summary);
 
 /// Writes the JSON atomically. Throws FileError.

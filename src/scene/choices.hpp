@@ -29,7 +29,8 @@ inline constexpr std::array damage_wave_speeds{Named{"bar", false}, Named{"press
 inline constexpr std::array cohesive_moduli{Named{"damaged", false}, Named{"undamaged", true}};
 inline constexpr std::array separated_points{
     Named{"faces", Separated::faces}, Named{"pressure", Separated::pressure},
-    Named{"drucker-prager", Separated::drucker_prager}, Named{"nothing", Separated::nothing}};
+    Named{"drucker-prager", Separated::drucker_prager}, Named{"nothing", Separated::nothing},
+    Named{"removed", Separated::removed}};
 /// Whether the flow is associated.
 inline constexpr std::array flows{Named{"isochoric", false}, Named{"associated", true}};
 /// Whether the search for a decohesion plane goes beyond the plane of the scene.

@@ -126,7 +126,7 @@ const Table& decohesion_table() {
        {"separated", &DecohesionParameters::separated, separated_points,
         "what bears a separated point: two faces, free of traction while open, under pressure and `friction` "
         "once closed; rubble, once its void is closed: pressure alone, or with it shear up to beta P of "
-        "`drucker_prager`; or nothing"}});
+        "`drucker_prager`; nothing; or it is removed, with its mass"}});
   return table;
 }
 

@@ -135,6 +135,7 @@ inline std::vector<NamedMaterial> readings() {
             }),
       glass("faces rub", [](P& p) { p.decohesion->friction = 0.3; }),
       glass("rubble bears nothing", [](P& p) { p.decohesion->separated = Separated::nothing; }),
+      glass("rubble is removed", [](P& p) { p.decohesion->separated = Separated::removed; }),
       glass("all at once", [](P& p) {
         p.damage->pressure_wave = true;
         p.decohesion->undamaged = p.decohesion->pressure_counts = true;

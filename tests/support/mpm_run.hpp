@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
+#include "integrators/grid/grid_method.hpp"
 #include "mpm/computation_error.hpp"
 #include "observe/energy_ledger.hpp"
 #include "scene/build_system.hpp"
-#include "integrators/grid/grid_method.hpp"
 #include "scene/read_scene.hpp"
 #include "support/mpm_scene.hpp"
 #include "support/reorder.hpp"
@@ -52,6 +52,7 @@ class MpmRun final : private StepObserver {
   /// on it.
   void put_in_order() {
     for (Body& body : system.bodies) {
+      if (body.removed > 0) continue;  // the storage says who has left
       std::vector<std::uint32_t> place(body.particles.size);
       for (std::uint32_t i = 0; i < place.size(); ++i) place[body.particles.identity[i]] = i;
       reorder(body.particles, place);

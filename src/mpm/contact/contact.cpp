@@ -179,6 +179,18 @@ bool Contact::part(System& system) {
   return parted;
 }
 
+double Contact::drop_removed(System& system) {
+  find_carriers(system);
+  const auto left = [&](const auto& of) { return has_left(system, of.key); };
+  double stored = 0.0;
+  for (const Touch& t : touches_)
+    if (left(t)) stored += t.force.energy + t.friction.spring.energy();
+  std::erase_if(touches_, left);
+  std::erase_if(grips_, left);
+  system.record.contact -= stored;
+  return stored;
+}
+
 void Contact::settle(const System& system) {
   find_carriers(system);
   const std::vector<Configuration> bodies = configurations(system);

@@ -81,6 +81,9 @@ class Contact {
   /// steps, or between Lagrangian phases.
   bool part(System& system);
   static constexpr std::int64_t steps_between_looks = 10;
+  /// Lets go of all that particles carry that have left. Returns what it stored, J (per radian or per metre);
+  /// what friction stored is lost with it.
+  double drop_removed(System& system);
   /// Particles have been put where they are: what they stood like before is as they stand now, and no
   /// friction comes of the difference.
   void settle(const System& system);
@@ -112,6 +115,14 @@ class Contact {
   void find_frequencies(const System& system, std::size_t body, std::vector<double>& per_mass) const;
   void find_carriers(const System& system);
   void place_patches(const System& system, std::span<const Configuration> bodies);
+  /// Whether the particle has left the computation.
+  bool has_left(const System& system, std::size_t body, std::uint32_t identity) const {
+    return place_[body][identity] >= system.bodies[body].present();
+  }
+  bool has_left(const System& system, const TouchKey& key) const {
+    return has_left(system, pairs_[key.pair].a, key.carrier_a) ||
+           has_left(system, pairs_[key.pair].b, key.carrier_b);
+  }
   void find_touches(const System& system, std::span<const Configuration> bodies);
   void find_touches_of_particles(const System& system, std::span<const Configuration> bodies,
                                  std::size_t pair);

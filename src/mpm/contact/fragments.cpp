@@ -15,12 +15,14 @@ constexpr std::size_t inside = 8;             // neighbours of a particle that i
 constexpr std::size_t smallest_fragment = 4;  // particles: less is rubble, which goes with what it lies at
 constexpr std::int32_t none = -1, rubble = -2;
 
-/// Whether particles are cut off from their neighbours, by identity: separated, and the crack is open.
+/// Whether particles are cut off from their neighbours, by identity: separated, and the crack is open, or
+/// they have left the computation.
 std::vector<bool> cut_particles(const Body& body) {
   const std::vector<double>&decohesion = body.column("decohesion"), &opening = body.column("opening_n");
   std::vector<bool> cut(body.particles.size, false);
   for (std::size_t i = 0; i < cut.size(); ++i)
-    if (decohesion[i] >= 1.0 && opening[i] > 0.0) cut[body.particles.identity[i]] = true;
+    if (decohesion[i] >= 1.0 && (opening[i] > 0.0 || i >= body.present()))
+      cut[body.particles.identity[i]] = true;
   return cut;
 }
 

@@ -26,6 +26,9 @@ void Contact::find_touches(const System& system, std::span<const Configuration> 
     }
     const std::span<const PlacedPatch> a = patches_of(pair.a), b = patches_of(pair.b);
     search_.find(places_of(pair.a), places_of(pair.b), reach(pair), [&](std::uint32_t i, std::uint32_t j) {
+      if (has_left(system, pair.a, patches_[first_[pair.a] + i].carrier) ||
+          has_left(system, pair.b, patches_[first_[pair.b] + j].carrier))
+        return;
       const PairForce force = pair_force(a[i], b[j], pair.law);
       if (force.overlap > 0.0 && force.gap > -pair.law.depth) gaps_[n] = std::min(gaps_[n], force.gap);
       if (!(force.energy > 0.0)) return;
@@ -91,6 +94,7 @@ void Contact::touch_as_circles(const System& system, std::span<const Configurati
                                std::uint32_t i, std::uint32_t j, double distance) {
   const BodyPair& pair = pairs_[n];
   const Body &a = system.bodies[pair.a], &b = system.bodies[pair.b];
+  if (has_left(system, pair.a, i) || has_left(system, pair.b, j)) return;
   // The particle's ring at the start is in its mass.
   const auto ring_of = [&](const Body& body, std::size_t which, std::uint32_t identity) {
     const double square = 4.0 * body.particle_half_size * body.particle_half_size;
@@ -157,12 +161,13 @@ void Contact::foresee_fragments(const System& system, std::size_t n, double marg
   list_faces(configurations(system), body);
   const std::span<const std::uint32_t> faces = fragments_[body].faces();
   const std::vector<std::int32_t>& fragment = system.bodies[body].fragments;
-  search_.find(particle_places_[body], particle_places_[body],
-               2.0 * (system.bodies[body].particle_half_size + margin),
-               [&](std::uint32_t k, std::uint32_t l) {
-                 const std::uint32_t i = faces[k], j = faces[l];
-                 if (i < j && fragment[i] != fragment[j]) list.push_back(carriers_of(n, i, j));
-               });
+  search_.find(
+      particle_places_[body], particle_places_[body], 2.0 * (system.bodies[body].particle_half_size + margin),
+      [&](std::uint32_t k, std::uint32_t l) {
+        const std::uint32_t i = faces[k], j = faces[l];
+        if (i < j && fragment[i] != fragment[j] && !has_left(system, body, i) && !has_left(system, body, j))
+          list.push_back(carriers_of(n, i, j));
+      });
 }
 
 std::vector<CarrierPair> Contact::foresee(const System& system, double margin) {
@@ -175,8 +180,10 @@ std::vector<CarrierPair> Contact::foresee(const System& system, double margin) {
     }
     search_.find(places_of(pair.a), places_of(pair.b), reach(pair) + 2.0 * margin,
                  [&](std::uint32_t i, std::uint32_t j) {
-                   list.push_back(carriers_of(n, patches_[first_[pair.a] + i].carrier,
-                                              patches_[first_[pair.b] + j].carrier));
+                   const std::uint32_t a = patches_[first_[pair.a] + i].carrier,
+                                       b = patches_[first_[pair.b] + j].carrier;
+                   if (!has_left(system, pair.a, a) && !has_left(system, pair.b, b))
+                     list.push_back(carriers_of(n, a, b));
                  });
   }
   for (const Touch& t : touches_)

@@ -6,7 +6,7 @@ from vitrum.plot.looks import page_width
 
 # Okabe and Ito's colours, in an order that keeps neighbours of the stack apart.
 shares = {"kinetic": "#0072B2", "elastic": "#56B4E9", "plastic": "#E69F00", "damage": "#009E73", "fracture": "#D55E00"}
-others = {"contact": "#F0E442", "friction": "#CC79A7", "filtered": "#999999"}  # shown where there is any
+others = {"contact": "#F0E442", "friction": "#CC79A7", "filtered": "#999999", "removed": "#000000"}  # shown where there is any
 beside = {"fontsize": 8, "loc": "center left", "bbox_to_anchor": (1.0, 0.5), "frameon": False}
 
 

@@ -12,7 +12,7 @@ from vitrum.report import charts, frames, verdict
 from vitrum.results import Run
 
 here = pathlib.Path(__file__).resolve().parent
-_of_account = ("initial", "external", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "filtered", "residual")
+_of_account = ("initial", "external", "kinetic", "elastic", "plastic", "damage", "fracture", "contact", "friction", "filtered", "removed", "residual")
 
 
 def _place(first: dict[str, Any]) -> str:
@@ -49,7 +49,7 @@ def page(run: Run, refresh: int = 0) -> str:
         bodies=", ".join(f"{name} ({material})" for name, material in zip(run.bodies, run.materials)),
         extent=f"{count:,} particles, cells of {1e3 * run.cell:.3g} mm, {1e6 * run.scene['time']['start']:.4g} to {1e6 * float(reached[-1]):.4g} µs" if len(reached) else "nothing yet",
         facts=facts, headline=verdict.headline(facts), progress=None if summary else verdict.progress(run), summary=summary,
-        account=[(name, f"{summary['energy'][name]:.4g}") for name in _of_account if summary["energy"][name] is not None] if summary else [],
+        account=[(name, f"{summary['energy'][name]:.4g}") for name in _of_account if summary["energy"].get(name) is not None] if summary else [],
         firsts=_firsts(run), provenance=_sorted_provenance(run), verbatim=run.verbatim, resolved=run.resolved,
         player=player, player_json=json.dumps(player).replace("</", "<\\/"), **drawn)
 

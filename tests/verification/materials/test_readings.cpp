@@ -191,6 +191,29 @@ TEST_CASE("rubble bears pressure once its void is closed, or nothing", "[materia
   }
 }
 
+TEST_CASE("a point that is to be removed bears what dust does, and says so",
+          "[material][decohesion][reading]") {
+  MaterialParameters p = glass_with(
+                         [](MaterialParameters&g) { g.decohesion->separated = Separated::nothing; }),
+                     gone = p;
+  gone.decohesion->separated = Separated::removed;
+  CHECK(!composite_of(p, cell)->leaving_column());
+  const auto material = composite_of(gone, cell);
+  REQUIRE(material->leaving_column());
+  CHECK(material->columns()[*material->leaving_column()].name == "decohesion");
+  Random random(31);
+  const std::vector<Segment> path = path_with_reversals(random, 8e-3, 1e4, 5);
+  std::vector<Driven> dust;
+  with_every_method(p, path, 20, {}, [&](const Driven& d) { dust.push_back(d); });
+  std::size_t n = 0;
+  with_every_method(gone, path, 20, {}, [&](const Driven& d) {
+    REQUIRE(is_separated(d.state));
+    CHECK(d.state.opening_n == dust[n].state.opening_n);
+    CHECK(d.dissipation.total() == dust[n++].dissipation.total());
+    CHECK(norm(d.state.stress) == 0.0);
+  });
+}
+
 TEST_CASE("rubble that bears shear keeps to q = beta P, and falls apart when it is let go",
           "[material][decohesion][reading]") {
   MaterialParameters p = cohesive_glass(5.0e-6);

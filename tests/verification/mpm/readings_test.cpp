@@ -35,6 +35,7 @@ const Reading strip_readings[] = {
     {"rubble bears pressure", "", "", "separated = \"pressure\"", ""},
     {"rubble bears shear", "", "", "separated = \"drucker-prager\"", ""},
     {"nothing", "", "", "separated = \"nothing\"", ""},
+    {"removed", "", "", "separated = \"removed\"", ""},
     {"a tenth of pic", "", "", "", "transfer = {flip = 0.9}"},
     {"pic", "", "", "", "transfer = \"pic\""},
 };
