@@ -197,10 +197,10 @@ TEST_CASE("a point that is to be removed bears what dust does, and says so",
                          [](MaterialParameters&g) { g.decohesion->separated = Separated::nothing; }),
                      gone = p;
   gone.decohesion->separated = Separated::removed;
-  CHECK(!composite_of(p, cell)->leaving_column());
-  const auto material = composite_of(gone, cell);
-  REQUIRE(material->leaving_column());
-  CHECK(material->columns()[*material->leaving_column()].name == "decohesion");
+  CHECK(!composite_of(p, cell)->door().leaving_column());
+  const std::optional<std::size_t> leaves = composite_of(gone, cell)->door().leaving_column();
+  REQUIRE(leaves);
+  CHECK(composite_of(gone, cell)->columns()[*leaves].name == "decohesion");
   Random random(31);
   const std::vector<Segment> path = path_with_reversals(random, 8e-3, 1e4, 5);
   std::vector<Driven> dust;
