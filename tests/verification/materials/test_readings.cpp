@@ -202,7 +202,8 @@ TEST_CASE("a point that is to be removed bears what dust does, and says so",
   REQUIRE(leaves);
   CHECK(composite_of(gone, cell)->columns()[*leaves].name == "decohesion");
   Random random(31);
-  const std::vector<Segment> path = path_with_reversals(random, 8e-3, 1e4, 5);
+  std::vector<Segment> path = path_with_reversals(random, 8e-3, 1e4, 5);
+  path.insert(path.begin(), stretch(8e-3, 3e3));
   std::vector<Driven> dust;
   with_every_method(p, path, 20, {}, [&](const Driven& d) { dust.push_back(d); });
   std::size_t n = 0;
