@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "materials/composite/acting_models.hpp"
 #include "materials/composite/damage_at_once.hpp"
 #include "materials/composite/elastic_runs.hpp"
 #include "materials/composite/flow_behind_crack.hpp"
