@@ -4,8 +4,9 @@
     studies/performance/measure.py BUILD [--out DIR] [--repetitions N] [--quick]
 
 BUILD is a build tree with the target vitrum_benchmarks (cmake --preset native && cmake --build --preset native). Leaves performance-measurements.md
-(tables), benchmarks.json (Google Benchmark's context and every repetition's time) and pictures/roofline.png in DIR (default: docs/reports, and the picture in docs). --quick: small scenes once, to see that the
-script runs. Run it on a quiet machine: it times.
+(tables), benchmarks.json (Google Benchmark's context and every repetition's time) and pictures/roofline.png in DIR (default: docs/reports, and the picture in docs).
+What performance.md says of the aims goes into its places there, and with --out into DIR/performance-blocks.md. --quick: small scenes once, to see that the script runs.
+Run it on a quiet machine: it times.
 """
 import argparse
 import json
@@ -14,10 +15,15 @@ import re
 import subprocess
 import sys
 
+import aims
+import linear_solvers
+import runs
 import tables
 from roofline import draw_roofline
 
 here = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parent))
+from study import page  # noqa: E402
 
 
 def run_benchmarks(build, out, repetitions, quick):
@@ -62,13 +68,23 @@ def main():
     program = arguments.build / "src/app/vitrum"
 
     benchmarks = run_benchmarks(arguments.build, out, repetitions, arguments.quick)
-    parts = [tables.header(program, repetitions)]
-    parts.append(tables.machine_and_scenes(benchmarks))
-    parts.append(tables.parts_of_a_step(benchmarks))
-    parts.append(tables.responses(benchmarks))
-    parts.append(tables.required(program, repetitions, arguments.quick))
-    parts.append(tables.growth(program, repetitions, arguments.quick))
+    memory = tables.memory(program, arguments.quick)
+    threads = tables.threads(program, repetitions, arguments.quick)
+    solvers = linear_solvers.measure(program, benchmarks, repetitions, arguments.quick)
+    whole = runs.whole_processes(program, repetitions)
+    parts = [tables.header(program, repetitions),
+             tables.machine_and_scenes(benchmarks),
+             tables.parts_of_a_step(benchmarks),
+             tables.responses(benchmarks),
+             tables.required(program, repetitions, arguments.quick, memory),
+             tables.growth(program, repetitions, arguments.quick, threads),
+             "## Linear solvers\n\n" + linear_solvers.rows(solvers)]
     (out / "performance-measurements.md").write_text("\n\n".join(parts) + "\n")
+    blocks = aims.blocks(tables.measured(program), benchmarks, memory, threads, solvers, whole)
+    if arguments.out:
+        (out / "performance-blocks.md").write_text(blocks)
+    else:
+        page.write_blocks("docs/reports/performance.md", blocks)
     draw_roofline(benchmarks, pictures / "roofline.png", tables.version(program))
 
 

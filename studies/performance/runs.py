@@ -44,15 +44,15 @@ def disks_settings(cells_per_metre, steps):
 
 
 def once(program, case):
-    """What all processes of a case did: the longest time (s), all particles, steps, and the largest memory."""
+    """What all processes of a case did: the longest times (s) of loop and process, all particles, steps, the integrator's counts, and the largest memory."""
     with concurrent.futures.ThreadPoolExecutor(case.processes) as pool:
         done = list(pool.map(lambda _: run(program, case), range(case.processes)))
-    return {"seconds": max(d["seconds"] for d in done), "particles": sum(d["particles"] for d in done), "steps": done[0]["steps"],
-            "memory": max(d["memory"] for d in done)}
+    return {**{key: max(d[key] for d in done) for key in ("seconds", "process", "memory")}, "particles": sum(d["particles"] for d in done),
+            "steps": done[0]["steps"], "integrator": done[0]["integrator"]}
 
 
 def run(program, case):
-    """One run: seconds of its time loop, particles, steps, and the largest memory of its process (bytes)."""
+    """One run: seconds of its time loop and of its process, particles, steps, the integrator's counts, and the largest memory of its process (bytes)."""
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "run", case.scene, "--out", folder, "--quiet"]
         if case.threads:
@@ -61,7 +61,9 @@ def run(program, case):
             command += ["--no-fields"]
         for setting in case.settings:
             command += ["--set", setting]
+        begun = time.perf_counter()
         done = subprocess.run([sys.executable, "-I", "-S", here / "launch.py", *command], capture_output=True, text=True)
+        process = time.perf_counter() - begun
         if done.returncode != 0:
             raise SystemExit(f"{case.name}: exit status {done.returncode}\n{done.stderr}")
         summary = json.loads((pathlib.Path(folder) / "summary.json").read_text())
@@ -69,8 +71,8 @@ def run(program, case):
     lost = energy["plastic"] + energy["damage"] + energy["fracture"]
     if case.elastic and (lost > 1e-12 * energy["initial"] or summary["failure"]["localised"] > 0):
         raise SystemExit(f"{case.name}: does not stay elastic: {lost} J of {energy['initial']} lost, {summary['failure']['localised']} localised")
-    return {"seconds": summary["wall_seconds"], "particles": summary["particles"], "steps": summary["integrator"]["steps"],
-            "memory": int(done.stdout)}
+    return {"seconds": summary["wall_seconds"], "process": process, "particles": summary["particles"], "steps": summary["integrator"]["steps"],
+            "integrator": summary["integrator"], "memory": int(done.stdout)}
 
 
 class Timing:
@@ -79,7 +81,7 @@ class Timing:
     def __init__(self, case, runs):
         self.case, self.runs = case, runs
         self.particles, self.steps = runs[0]["particles"], runs[0]["steps"]
-        self.seconds = [run["seconds"] for run in runs]
+        self.seconds, self.whole = ([run[key] for run in runs] for key in ("seconds", "process"))
         self.memory = statistics.median(run["memory"] for run in runs)
 
     @property
@@ -113,6 +115,12 @@ def measure(program, cases, repetitions):
         for case in cases if repetition % 2 == 0 else reversed(cases):
             runs[case.name].append(once(program, case))
     return {case.name: Timing(case, runs[case.name]) for case in cases}
+
+
+def whole_processes(program, repetitions):
+    """Seconds of the whole process of the run of `./quickstart`, with its outputs and with as many threads as the program chooses."""
+    case = Case("quickstart", reference, ['integrator.scheme="musl"', "integrator.step=2.5e-8"], threads=0, fields=True)
+    return measure(program, [case], repetitions)[case.name].whole
 
 
 def study_seconds(program, counts, end, repetitions):

@@ -31,12 +31,17 @@ def version(program):
     return subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()[0]
 
 
-def header(program, repetitions):
+def measured(program):
+    """By what, when, of which program and where all was measured."""
     version = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()
     processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())
-    return (f"# Performance: every measurement\n\n*Measured by `studies/performance/measure.py`, {datetime.date.today()}; {version[0]}; {' '.join(version[1].split())}; "
-            f"{processor.strip()}, {os.cpu_count()} cores.*\n\nMedians of {repetitions} runs. The spread is half the distance of the quartiles. What the figures mean: "
-            "[performance](performance.md).")
+    return (f"*Measured by `studies/performance/measure.py`, {datetime.date.today()}; {version[0]}; {' '.join(version[1].split())}; "
+            f"{processor.strip()}, {os.cpu_count()} cores.*")
+
+
+def header(program, repetitions):
+    return (f"# Performance: every measurement\n\n{measured(program)}\n\nMedians of {repetitions} runs. The spread is half the distance of the quartiles. "
+            "What the figures mean: [performance](performance.md).")
 
 
 def machine_and_scenes(benchmarks):
@@ -85,7 +90,7 @@ def required_cases(quick):
     return cases
 
 
-def required(program, repetitions, quick):
+def required(program, repetitions, quick, memory):
     timings = runs.measure(program, required_cases(quick), repetitions)
     base = timings["elastic, axisymmetric"]
     rows = [(name, f"{t.rate:.1f}", percent(t.spread), f"{t.ratio(base):.2f}") for name, t in timings.items()]
@@ -101,11 +106,11 @@ def required(program, repetitions, quick):
     return ("## Only what the scene requires\n\nTime a particle-step relative to the elastic bar, runs side by side.\n\n" +
             table(["scene", "M particle-steps/s", "spread", "ratio"], rows) + "\n\n" +
             table(["reference case", "particles", "steps", "s", "spread", "ns a particle-step"], more) + "\n\n" +
-            memory(program, quick))
+            "Memory:\n\n" + table(["model", "particles", "bytes a particle", "process, MB"], memory))
 
 
 def memory(program, quick):
-    """Bytes a particle: what 3 of 4 particles of the larger scene add to the process."""
+    """Rows of model, particles, bytes a particle and megabytes of the process. Bytes: what 3 of 4 particles of the larger scene add to the process."""
     damage = [runs.slight_damage]
     # Both so large that the program itself and its outputs are not what decides.
     large = [0.625e-3, 0.3125e-3] if quick else [0.078125e-3, 0.0390625e-3]
@@ -120,7 +125,7 @@ def memory(program, quick):
         a, b = (runs.once(program, runs.Case(name, runs.bar, runs.bar_settings(cell, 3) + more)) for cell in cells)
         rows.append((name, b["particles"], f"{(b['memory'] - a['memory']) / (b['particles'] - a['particles']):.0f}",
                      f"{b['memory'] / 1e6:.0f}"))
-    return "Memory:\n\n" + table(["model", "particles", "bytes a particle", "process, MB"], rows)
+    return rows
 
 
 def exponent(x, y):
@@ -139,7 +144,7 @@ def memory_exponent(timings):
     return exponent([t.particles for t in large], [t.memory - program_itself for t in large]) if len(large) > 1 else "-"
 
 
-def growth(program, repetitions, quick):
+def growth(program, repetitions, quick, threads):
     cells = [0.625e-3, 0.3125e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.0390625e-3, 0.01953125e-3]
     steps = {cell: max(60, int(60e6 * (cell / 0.625e-3) ** 2 / 1280)) if not quick else 20 for cell in cells}
     sizes = runs.measure(program, [runs.Case(f"{cell}", runs.bar, runs.bar_settings(cell, steps[cell])) for cell in cells], repetitions)
@@ -159,7 +164,8 @@ def growth(program, repetitions, quick):
     cases, what_cases_take = study_cases(program, repetitions, quick)
     lines.append(("cases of a study beyond the first two, time", what_cases_take))
     return ("## Growth\n\n" + table(["particles", "M particle-steps/s", "spread", "us a step", "process, MB"], rows) + "\n\n" +
-            table(["what grows", "exponent"], lines) + "\n\n" + cases + "\n\n" + threads(program, repetitions, quick))
+            table(["what grows", "exponent"], lines) + "\n\n" + cases + "\n\nSpeed relative to one thread:\n\n" +
+            table(["scene", "particles", "two threads", "as the program chooses", "two processes of one thread side by side"], threads))
 
 
 def study_cases(program, repetitions, quick):
@@ -174,7 +180,8 @@ def study_cases(program, repetitions, quick):
 
 
 def threads(program, repetitions, quick):
-    """What a second core gives: to a second thread, and, as the bound that the machine sets, to a second process."""
+    """Rows of scene, particles, and what a second core gives: to a second thread, as the program chooses, and, as the bound that the machine sets, to a
+    second process."""
     bars = [0.625e-3] if quick else [0.625e-3, 0.3125e-3, 0.15625e-3, 0.078125e-3, 0.03125e-3]
     scenes = [("bar", runs.bar, runs.bar_settings(cell, 20 if quick else max(20, int(60e6 * (cell / 0.625e-3) ** 2 / 1280))))
               for cell in bars]
@@ -189,5 +196,4 @@ def threads(program, repetitions, quick):
                                    runs.Case("chosen", scene, settings, threads=0),
                                    runs.Case("side by side", scene, settings, processes=2)], repetitions)
         rows.append((name, t["1"].particles, *(f"{1.0 / t[case].ratio(t['1']):.2f}" for case in ("2", "chosen", "side by side"))))
-    return "Speed relative to one thread:\n\n" + table(
-        ["scene", "particles", "two threads", "as the program chooses", "two processes of one thread side by side"], rows)
+    return rows
