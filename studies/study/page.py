@@ -57,9 +57,8 @@ def run_times(out):
     return len(seconds), sum(seconds)
 
 
-def made_where(name, quick):
+def measured_by(command):
     """Command, date, commit and machine: what a page of numbers begins with."""
-    command = f"./quickstart study {name}" + (" --quick" if quick else "")
     return f"*Measured by `{command}`, {datetime.date.today().isoformat()}; commit {commit()} ({version()}); {machine()}.*"
 
 
@@ -74,7 +73,8 @@ def provenance(name, quick, out):
 def assemble(text, name, quick, out):
     """The page: below its title who measured it, where and when; at its end what was run."""
     title, body = text.split("\n", 1)
-    return f"{title}\n\n{made_where(name, quick)}\n{body}\n{provenance(name, quick, out)}"
+    command = f"./quickstart study {name}" + (" --quick" if quick else "")
+    return f"{title}\n\n{measured_by(command)}\n{body}\n{provenance(name, quick, out)}"
 
 
 def publish(page, figures, target, beside):
