@@ -10,7 +10,7 @@ from readings.factors import counts, factors, full, settings_of
 
 amplitude = 0.02  # cells, by which members of an ensemble differ
 shown = ((200, 200), (200, 800), (400, 200))  # cases (R in mm, v in m/s), of which 21 statements speak
-rows_of_design = 64  # pairs need 28; an effect that explains a quarter of a verdict is more than chance among some 300 from 60 on
+rows_of_design = 64  # pairs need 25; an effect that explains a quarter of a verdict is more than chance among some 300 from 60 on
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ factors = [
     _factor("flow", "flow behind the plane", "whether a localised point flows", yes={}, no={glass + "decohesion.flow_behind_plane": False}),
     _factor("separated", "separated point", "what a point with λ = 1 bears", faces={}, friction={glass + "decohesion.friction": 0.3},
             pressure={glass + "decohesion.separated": "pressure"}, drucker_prager={glass + "decohesion.separated": "drucker-prager"},
-            nothing={glass + "decohesion.separated": "nothing"}),
+            nothing={glass + "decohesion.separated": "nothing"}, removed={glass + "decohesion.separated": "removed"}),
     _factor("compression", "localises under compression", "where localisation is looked for", yes={}, no={glass + "decohesion.partial_compression": False}),
     _factor("eq18", "pressure in eq. 18", "the sign rule of τ_n in eqs. 15 to 18", no={}, yes={glass + "decohesion.pressure_counts": True}),
     _factor("tau", "τ̄_0", "U_0 in J/m²", onset={}, given={glass + "decohesion.tau_bar_0": griffith}),

@@ -4,7 +4,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 from study.figures import colours, legend_below, page_width, plt, save
 
-from readings.factors import factors
+from readings.factors import counts, factors
 
 # By verdict: what comes out with a sound account, with an unsound one, after a blow-up, not, and what was not judged.
 kinds = {"as the text says": colours[0], "… with an account open by more than 5 %": colours[5], "… after a blow-up": colours[4], "otherwise": "#E6E6E6", "ended before": "white"}
@@ -35,10 +35,10 @@ def matrix(verdicts, design, folder, name, sound=0.05):
         axes.set_title(way.label)
         axes.grid(False)
     axes = panels[-1, 0]
-    axes.imshow(np.array(rows).T, cmap="Greys", vmin=0, vmax=3, aspect="auto", interpolation="nearest")
+    axes.imshow(np.array(rows).T, cmap="Greys", vmin=0, vmax=max(counts) - 1, aspect="auto", interpolation="nearest")
     axes.set_yticks(range(len(factors)), [factor.label for factor in factors], fontsize=6)
     axes.set_xticks(range(len(rows)), range(1, len(rows) + 1), fontsize=6)
-    axes.set_xlabel("reading (white: the reference's level; darker: the second, third and fourth)")
+    axes.set_xlabel("reading (white: the reference's level; the darker, the later it stands in the table of factors)")
     axes.grid(False)
     legend_below(figure, [Patch(facecolor=colour, edgecolor="#999999", label=label) for label, colour in kinds.items()])
     save(figure, folder, name)

@@ -1,6 +1,7 @@
 """The quick study of readings: every reading of its array runs under two integrations and is judged; what the report says of verdicts holds of verdicts that are made up."""
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -12,7 +13,7 @@ sys.path.insert(0, str(source / "studies"))
 from readings import analysis  # noqa: E402
 from readings.cases import cases_of, points, reference, rows_of_design  # noqa: E402
 from readings.design import all_pairs, covering_array, pairs_of  # noqa: E402
-from readings.factors import counts, factors  # noqa: E402
+from readings.factors import by_key, counts, factors  # noqa: E402
 
 
 class Readings(StudyTest):
@@ -48,6 +49,12 @@ class Design(unittest.TestCase):
         for factor, count in enumerate(counts):
             used = [sum(row[factor] == level for row in rows) for level in range(count)]
             self.assertLessEqual(max(used) - min(used), 2)
+
+    def test_what_a_separated_point_bears_is_all_that_a_scene_can_say(self):
+        choices = re.search(r"^\| `separated` \| one of ([^|]*) \|", (source / "docs/reference/scene.md").read_text(encoding="utf-8"), re.M)[1]
+        key = "material.glass.decohesion.separated"
+        tried = [dict(level.settings)[key] for level in by_key["separated"].levels if key in dict(level.settings)]
+        self.assertEqual(['"faces"', *(f'"{each}"' for each in tried)], choices.split(", "))  # faces: the reference
 
     def test_points_are_named_once_and_differ(self):
         for quick in (False, True):
