@@ -13,6 +13,10 @@ quantities = {
     "lower_area": ("of it farther out, in the lower three fifths of the plate", "mm²", 1e6), "strength": ("mean strength", "MPa", 1e-6), "localised_volume": ("localised volume", "mm³", 1e9), "localised_particles": ("localised particles", "", 1.0),
     "fracture": ("fracture energy", "J", 1.0), "cylinder_velocity": ("velocity of the cylinder", "m/s", 1.0), "fragments": ("fragments of the plate", "", 1.0),
     "ringing": ("pressures within cells, of the energy", "%", 100.0), "residual": ("residual", "%", 100.0)}
+# What belongs together, in tables that a phone can show.
+tables = {"where it begins": ("first_time", "first_radius", "first_height", "early_area", "strength"),
+          "how much cracks": ("crack_area", "inner_area", "lower_area", "localised_volume", "localised_particles"),
+          "energy and motion": ("fracture", "cylinder_velocity", "fragments", "ringing", "residual")}
 drawn = ("first_time", "first_radius", "crack_area", "localised_volume", "fracture", "cylinder_velocity")
 shipped_quantities = {key: quantities[key] for key in ("first_time", "first_radius", "first_height", "crack_area", "localised_volume", "fracture", "residual")}
 

@@ -7,7 +7,7 @@ from study.tables import markdown, number, write_csv
 
 from space import figures
 from space.cases import all_settings, asked, base, cells_of, end, ensemble, fixed, fixed_four, four, paper, paper_four, quick_end, shipped, shipped_ensemble
-from space.measures import convergence, of_run, of_shipped, quantities, shipped_quantities, signed, statistics
+from space.measures import convergence, of_run, of_shipped, quantities, shipped_quantities, signed, statistics, tables
 
 name = "space"
 
@@ -51,8 +51,9 @@ def _cell_text(key, stats):
     return middle if least == most else f"{middle} ({least} … {most})"
 
 
-def _heads(title, chosen):
-    return [title, "cell (mm)", *[f"{label} ({unit})" if unit else label for label, unit, _ in chosen.values()]]
+def _head(key):
+    label, unit, _ = quantities[key]
+    return f"{label} ({unit})" if unit else label
 
 
 def _ratio(found, key, of, to):
@@ -86,7 +87,7 @@ def _shipped_table(shipped_members):
     for (scene, cell, count), of_members in shipped_members.items():
         stats = {key: statistics([row[key] for row in of_members]) for key in shipped_quantities}
         rows.append([f"`{scene}.toml`", cell, count, *[_cell_text(key, stats[key]) for key in shipped_quantities]])
-    return markdown(["scene", "cell (mm)", "particles a cell", *_heads("", shipped_quantities)[2:]], rows) if rows else ""
+    return markdown(["scene", "cell (mm)", "particles a cell", *map(_head, shipped_quantities)], rows) if rows else ""
 
 
 def _converging(orders, setting):
@@ -98,14 +99,32 @@ def _converging(orders, setting):
     return f"Over the cells {len(judged) - len(settled)} of {len(judged)} measures show no limit ({setting.label}). The others: {', '.join(settled) or 'none'}"
 
 
+def _group(title, settings, found, quick):
+    """The medians of every measure, a table for each part of them."""
+    name = title[0].upper() + title[1:]
+    places = [(setting, cell) for setting in settings for cell in cells_of(setting, quick)]
+    parts = [f"{part[0].upper() + part[1:]}:\n\n" + markdown([title, "cell (mm)", *map(_head, keys)], [[setting.label, cell, *[_cell_text(key, found[setting.name, cell][key]) for key in keys]]
+                                                                                   for setting, cell in places]) for part, keys in tables.items()]
+    return f"### {name}\n\n" + "\n\n".join(parts)
+
+
+def _verdict(row):
+    if row["limit"] is None:
+        return row["verdict"]
+    order = "" if row["order"] is None else f", order {number(row['order'], 2)}"
+    return f"{row['verdict']}: {number(quantities[row['measure']][2] * row['limit'])}{order}"
+
+
+def _verdicts(orders, labels):
+    """A row for each measure, a column for each setting that has cells enough."""
+    judged = {(row["setting"], row["measure"]): row for row in orders if row["verdict"] != "–"}
+    settings = list(dict.fromkeys(setting for setting, _ in judged))
+    return markdown(["measure", *(labels[setting] for setting in settings)],
+                    [[_head(key), *(_verdict(judged[setting, key]) if (setting, key) in judged else "–" for setting in settings)] for key in quantities]) if judged else ""
+
+
 def _page_values(members, found, orders, shipped_members, quick):
-    tables = []
-    for title, settings in asked(quick).values():
-        rows = [[setting.label, cell, *[_cell_text(key, found[setting.name, cell][key]) for key in quantities]] for setting in settings for cell in cells_of(setting, quick)]
-        tables.append(f"### {title[0].upper() + title[1:]}\n\n" + markdown(_heads(title, quantities), rows))
     labels = {setting.name: setting.label for setting in reversed(all_settings(quick).values())} | {base.name: base.label, four.name: "4 a cell"}
-    verdicts = [[labels[row["setting"]], quantities[row["measure"]][0], row["verdict"], row["order"],
-                 None if row["limit"] is None else quantities[row["measure"]][2] * row["limit"]] for row in orders if row["verdict"] != "–"]
     ratios = {"particle": ("localised_particles", four, base, "1"), "volume": ("localised_volume", four, base, "1"), "area": ("crack_area", four, base, "1"),
               "energy": ("fracture", four, base, "1")}
     if not quick:
@@ -121,7 +140,8 @@ def _page_values(members, found, orders, shipped_members, quick):
     return values | {
         "converging": _converging(orders, base), "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
         "failed": sum(row["residual"] is None for row in rows), "full": not quick, "shipped": _shipped_table(shipped_members),
-        "verdicts": markdown(["setting", "measure", "over the cells", "order", "limit"], verdicts) if verdicts else "", "tables": "\n\n".join(tables),
+        "verdicts": _verdicts(orders, labels), "tables": "\n\n".join(_group(*each, found, quick) for each in asked(quick).values()),
+        "first_single": _cell_text("first_time", found["single", "1"]["first_time"]), "first_bodies": _cell_text("first_time", found[base.name, "1"]["first_time"]),
         "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}](figures/{key}.png)" for key, (title, _) in asked(quick).items()),
     }
 

@@ -95,7 +95,7 @@ def tolerance(problems, folder, name):
             axes.loglog(span, span, color="black", linewidth=0.8, linestyle=":")
             if not here:
                 axes.set_visible(False)
-            axes.set_title(f"{problem.key}, {'explicit' if prefix == 'erk' else 'implicit, same remaps'}", fontsize=8)
+            axes.set_title(f"{problem.short}, {'explicit' if prefix == 'erk' else 'implicit, same remaps'}", fontsize=8)
         line[0].set_ylabel("achieved error (–)")
     for axes in panels[-1]:
         axes.set_xlabel("requested rtol")
@@ -118,17 +118,17 @@ def divergence(series, folder, name):
     save(figure, folder, name)
 
 
-def local(rows, folder, name):
+def local(problems, rows, folder, name):
     """What local integration changes: error of the velocities over wall time."""
     markers = {"closed-form": "o", "substep": "s", "cvode": "D"}
-    problems = list(dict.fromkeys(row["problem"] for row in rows))
-    figure, panels = plt.subplots(1, len(problems), figsize=(3.4 * len(problems) + 0.4, 3.2), squeeze=False)
-    for axes, problem in zip(panels[0], problems):
+    shown = list(dict.fromkeys(row["problem"] for row in rows))
+    figure, panels = plt.subplots(1, len(shown), figsize=(3.4 * len(shown) + 0.4, 3.2), squeeze=False)
+    for axes, problem in zip(panels[0], shown):
         for row in rows:
             if row["problem"] == problem and row["velocity"]:
                 colour = looks[row["family"]][0]
                 axes.loglog(row["seconds"], row["velocity"], linestyle="", marker=markers[row["local"].split()[0]], markerfacecolor="white", color=colour)
-        axes.set_title(problem)
+        axes.set_title(problems[problem].short)
         axes.set_xlabel("wall time (s)")
     panels[0, 0].set_ylabel("error of velocity (–)")
     handles = [Line2D([], [], linestyle="", marker=marker, markerfacecolor="white", color="#666666", label=kind) for kind, marker in markers.items()]

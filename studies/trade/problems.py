@@ -2,7 +2,7 @@
 from study.ladders import field_of_velocity, trade_rows
 from study.results import Study
 
-keys = ("impact", "onset", "failure")
+keys = {"impact": "smooth impact", "onset": "to first localisation", "failure": "into failure"}  # and what panels of a figure call them
 fixed_steps = ("usf", "usl", "musl")
 
 
@@ -10,7 +10,7 @@ class Problem:
     """`rows`: work, and errors by quantity, of every rung; `floors`: how far the references are apart, by (shape functions, quantity). "velocity" is the field's RMS."""
 
     def __init__(self, key, out):
-        self.key, self.study = key, Study(out, key)
+        self.key, self.short, self.study = key, keys[key], Study(out, key)
         end = self.study.scene["time"]["end"]
         self.title = self.study.plan["title"].replace("its end", f"{1e6 * end:g} µs")
         self.names = ["velocity", *[quantity.name for quantity in self.study.quantities]]
