@@ -2,147 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <map>
-#include <optional>
 
 #include "scene/input_error.hpp"
+#include "scene/joined_edges.hpp"
 #include "scene/shapes.hpp"
 
 namespace vitrum {
 namespace {
-
-using Edges = std::vector<Edge>;
-using Inside = std::function<bool(const Vector2&)>;
-
-double apart(const Vector2& a, const Vector2& b) {
-  return std::hypot(b[0] - a[0], b[1] - a[1]);
-}
-bool near(const Box& a, const Box& b, double reach) {
-  bool result = true;
-  for (std::size_t c = 0; c < 2; ++c)
-    result = result && a.min[c] <= b.max[c] + reach && b.min[c] <= a.max[c] + reach;
-  return result;
-}
-
-/// Points of which those that are within a tolerance are one.
-class Vertices {
- public:
-  explicit Vertices(double tolerance) : tolerance_(tolerance) {}
-  /// The point that stands for one.
-  Vector2 of(const Vector2& x) {
-    const Bin home = bin(x);
-    for (long i = -1; i <= 1; ++i)
-      for (long j = -1; j <= 1; ++j)
-        if (const auto found = bins_.find({home[0] + i, home[1] + j}); found != bins_.end())
-          for (const Vector2& y : found->second)
-            if (apart(x, y) <= tolerance_) return y;
-    bins_[home].push_back(x);
-    return x;
-  }
-
- private:
-  using Bin = std::array<long, 2>;
-  Bin bin(const Vector2& x) const {
-    return {std::lround(x[0] / (2.0 * tolerance_)), std::lround(x[1] / (2.0 * tolerance_))};
-  }
-  double tolerance_;
-  std::map<Bin, std::vector<Vector2>> bins_;
-};
-
-/// Two sets of closed edges that are being put together.
-class Joining {
- public:
-  Joining(const Edges& a, const Edges& b, double tolerance)
-      : tolerance_(tolerance), vertices_(tolerance), edges_{a, b}, cuts_{Cuts(a.size()), Cuts(b.size())} {
-    for (std::size_t side = 0; side < 2; ++side)
-      for (const Edge& edge : edges_[side]) boxes_[side].push_back(edge.bounds());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = 0; j < b.size(); ++j)
-        if (near(boxes_[0][i], boxes_[1][j], tolerance_)) cut(i, j);
-  }
-
-  /// Of a or b.
-  Edges together(const Inside& in_a, const Inside& in_b) {
-    Edges kept;
-    for (const Edge& piece : pieces(0))
-      if (const Place at = place(piece, 1, in_b); at == Place::outside || at == Place::along)
-        kept.push_back(piece);
-    for (const Edge& piece : pieces(1))
-      if (place(piece, 0, in_a) == Place::outside) kept.push_back(piece);
-    return kept;
-  }
-  /// Of a without b.
-  Edges without(const Inside& in_a, const Inside& in_b) {
-    Edges kept;
-    for (const Edge& piece : pieces(0))
-      if (const Place at = place(piece, 1, in_b); at == Place::outside || at == Place::against)
-        kept.push_back(piece);
-    for (const Edge& piece : pieces(1))
-      if (place(piece, 0, in_a) == Place::inside) kept.push_back(piece.reversed());
-    return kept;
-  }
-
- private:
-  using Cuts = std::vector<std::vector<Vector2>>;
-  enum class Place { outside, inside, along, against };  // the last two: on an edge of the other
-
-  void cut(std::size_t i, std::size_t j) {
-    const Edge &a = edges_[0][i], &b = edges_[1][j];
-    for (const Vector2& x : crossings(a, b)) cuts_[0][i].push_back(x), cuts_[1][j].push_back(x);
-    for (const double end : {0.0, 1.0}) {
-      if (distance(a, b.place(end)) <= tolerance_) cuts_[0][i].push_back(b.place(end));
-      if (distance(b, a.place(end)) <= tolerance_) cuts_[1][j].push_back(a.place(end));
-    }
-  }
-
-  Edges pieces(std::size_t side) {
-    Edges list;
-    for (std::size_t n = 0; n < edges_[side].size(); ++n) {
-      const Edge& edge = edges_[side][n];
-      struct Cut {
-        double at;
-        Vector2 point;
-      };
-      std::vector<Cut> cuts{{0.0, vertices_.of(edge.place(0.0))}, {1.0, vertices_.of(edge.place(1.0))}};
-      for (const Vector2& x : cuts_[side][n]) {
-        const Vector2 point = vertices_.of(x);
-        if (point != cuts[0].point && point != cuts[1].point) cuts.push_back({edge.nearest(x), point});
-      }
-      std::ranges::sort(cuts, {}, &Cut::at);
-      for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-        if (const Edge piece = edge.piece(cuts[k].at, cuts[k + 1].at, cuts[k].point, cuts[k + 1].point);
-            cuts[k].point != cuts[k + 1].point || piece.length() > 4.0 * tolerance_)
-          list.push_back(piece);
-    }
-    return list;
-  }
-
-  Place place(const Edge& piece, std::size_t other, const Inside& inside) const {
-    Place found = Place::outside;
-    for (const double s : {0.5, 0.3}) {  // at one of them the other may touch it
-      const Vector2 x = piece.place(s);
-      const Edge* edge = edge_at(x, other);
-      if (edge == nullptr) return inside(x) ? Place::inside : Place::outside;
-      found =
-          std::cos(edge->normal(edge->nearest(x)) - piece.normal(s)) > 0.0 ? Place::along : Place::against;
-    }
-    return found;
-  }
-
-  const Edge* edge_at(const Vector2& x, std::size_t side) const {
-    for (std::size_t n = 0; n < edges_[side].size(); ++n)
-      if (near(boxes_[side][n], {x, x}, tolerance_) && distance(edges_[side][n], x) <= tolerance_)
-        return &edges_[side][n];
-    return nullptr;
-  }
-
-  double tolerance_;
-  Vertices vertices_;
-  std::array<Edges, 2> edges_;
-  std::array<Cuts, 2> cuts_;
-  std::array<std::vector<Box>, 2> boxes_;
-};
 
 Vector2 start_of(const Edge& edge) {
   return edge.place(edge.outward() ? 0.0 : 1.0);
@@ -186,33 +54,79 @@ double extent(const Region& region) {
   return std::max({box.max[0] - box.min[0], box.max[1] - box.min[1]});
 }
 
+/// The edges of shapes that are put together or cut out one after the other. Each meets those edges alone
+/// that its box is near to: all others stay as they are.
+class Outline {
+ public:
+  explicit Outline(double tolerance) : tolerance_(tolerance) {}
+
+  void add(const Region& shape) { place(shape, false); }
+  void cut(const Region& shape) { place(shape, true); }
+
+  /// In the order of their shapes.
+  Edges edges() const {
+    Edges all;
+    for (const Placed& each : placed_) all.insert(all.end(), each.left.begin(), each.left.end());
+    return all;
+  }
+
+ private:
+  /// A shape, and what is left of its edges.
+  struct Placed {
+    const Region* shape;
+    Box box;
+    bool hole;
+    Edges left;
+  };
+
+  void place(const Region& shape, bool hole) {
+    const Box box = bounds(shape);
+    const double reach = 4.0 * tolerance_;
+    const auto meets = [&](const Edge& edge) { return near(edge.bounds(), box, reach); };
+    std::vector<Placed*> beside;
+    for (Placed& each : placed_)
+      if (near(each.box, box, reach)) beside.push_back(&each);
+    Edges met;
+    for (const Placed* each : beside) std::ranges::copy_if(each->left, std::back_inserter(met), meets);
+
+    const auto in_earlier = [&](const Vector2& x) {
+      const auto in = [&x](const Placed* each) { return contains(*each->shape, x); };
+      return std::ranges::any_of(beside, [&](const Placed* each) { return !each->hole && in(each); }) &&
+             std::ranges::none_of(beside, [&](const Placed* each) { return each->hole && in(each); });
+    };
+    const auto in_shape = [&](const Vector2& x) { return contains(shape, x); };
+    const auto join = hole ? without : together;
+    Joined joined = join(met, in_earlier, edges_of(shape, false), in_shape, tolerance_);
+
+    auto pieces = joined.a.cbegin();
+    for (Placed* each : beside) {
+      Edges left;
+      for (const Edge& edge : each->left)
+        if (meets(edge))
+          left.insert(left.end(), pieces->begin(), pieces->end()), ++pieces;
+        else
+          left.push_back(edge);
+      each->left = std::move(left);
+    }
+    placed_.push_back({&shape, box, hole, std::move(joined.b)});
+  }
+
+  double tolerance_;
+  std::vector<Placed> placed_;
+};
+
 }  // namespace
 
 std::vector<Edge> outline(const Region& region) {
   constexpr double relative_tolerance = 1e-12;
-  const double tolerance = relative_tolerance * extent(region);
-  Edges edges;
-  if (const auto* parts = std::get_if<Union>(&region.shape)) {
-    for (std::size_t n = 0; n < parts->parts.size(); ++n) {
-      const auto before = [&](const Vector2& x) {
-        return std::any_of(parts->parts.begin(), parts->parts.begin() + static_cast<std::ptrdiff_t>(n),
-                           [&](const Region& part) { return contains(part, x); });
-      };
-      const auto in_next = [&](const Vector2& x) { return contains(parts->parts[n], x); };
-      edges = Joining(edges, edges_of(parts->parts[n], false), tolerance).together(before, in_next);
-    }
-  } else {
-    edges = edges_of(Region(region.shape), false);
-  }
-  for (std::size_t n = 0; n < region.holes.size(); ++n) {
-    const auto left = [&](const Vector2& x) {
-      return contains(region.shape, x) &&
-             std::none_of(region.holes.begin(), region.holes.begin() + static_cast<std::ptrdiff_t>(n),
-                          [&](const Region& hole) { return contains(hole, x); });
-    };
-    const auto in_hole = [&](const Vector2& x) { return contains(region.holes[n], x); };
-    edges = Joining(edges, edges_of(region.holes[n], false), tolerance).without(left, in_hole);
-  }
+  Outline outline(relative_tolerance * extent(region));
+  const Region whole(region.shape);
+  if (const auto* parts = std::get_if<Union>(&region.shape))
+    for (const Region& part : parts->parts) outline.add(part);
+  else
+    outline.add(whole);
+  for (const Region& hole : region.holes) outline.cut(hole);
+  Edges edges = outline.edges();
   mark_holes(edges);
   return edges;
 }

@@ -1,23 +1,15 @@
-// Shapes put together, cut out and read from pictures.
-#include <png.h>
-
+// Shapes put together and cut out: their edges, areas, particles and gaps.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <random>
 
-#include "scene/input_error.hpp"
-#include "scene/read_scene.hpp"
 #include "scene/seeding.hpp"
 #include "scene/shape_gap.hpp"
 #include "scene/shape_measures.hpp"
 #include "scene/shapes.hpp"
 #include "scene/surface_edges.hpp"
-#include "scene/write_scene.hpp"
-#include "support/mpm_scene.hpp"
 #include "support/random_states.hpp"
+#include "support/region_measures.hpp"
 #include "tests/catch.hpp"
 
 using namespace vitrum;
@@ -27,13 +19,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Region without(Region shape, const std::vector<Region>& holes) {
-  shape.holes = holes;
-  return shape;
-}
-
-Shape random_shape(Random& random) {
-  const Vector2 at{random.uniform(4.0, 9.0), random.uniform(0.0, 5.0)};
+Shape random_shape(Random& random, double width = 5.0) {
+  const Vector2 at{random.uniform(4.0, 4.0 + width), random.uniform(0.0, width)};
   const double size = random.uniform(0.5, 3.0);
   switch (random.integer(0, 3)) {
     case 0:
@@ -58,73 +45,34 @@ Region random_region(Random& random) {
   return region;
 }
 
-/// Area and moment by rows of points.
-std::array<double, 2> by_points(const Region& region) {
-  constexpr int count = 700;
-  const Box box = bounds(region);
-  const double dx = (box.max[0] - box.min[0]) / count, dy = (box.max[1] - box.min[1]) / count;
-  std::array<double, 2> sum{};
-  for (int j = 0; j < count; ++j)
-    for (int i = 0; i < count; ++i) {
-      const Vector2 x{box.min[0] + (i + 0.5) * dx, box.min[1] + (j + 0.5) * dy};
-      if (contains(region, x)) sum[0] += dx * dy, sum[1] += x[0] * dx * dy;
-    }
-  return sum;
+/// Whether a region lies on one side of an edge alone, there.
+bool separates(const Region& region, const Edge& edge, double s) {
+  const Vector2 x = edge.place(s);
+  const double angle = edge.normal(s);
+  const Vector2 step{1e-6 * std::cos(angle), 1e-6 * std::sin(angle)};
+  return contains(region, {x[0] - step[0], x[1] - step[1]}) !=
+         contains(region, {x[0] + step[0], x[1] + step[1]});
 }
-
-std::array<double, 2> sums(const std::vector<Seed>& seeds) {
-  std::array<double, 2> sum{};
-  for (const Seed& seed : seeds) sum[0] += seed.area, sum[1] += seed.area * seed.position[0];
-  return sum;
+/// How much of its shapes' edges lies between inside and outside, by points along them.
+double length_between(const Region& region, const std::vector<Region>& parts,
+                      const std::vector<Region>& holes) {
+  constexpr int count = 100;
+  double length = 0.0;
+  for (const auto* shapes : {&parts, &holes})
+    for (const Region& shape : *shapes)
+      for (const Edge& edge : edges_of(shape, false))
+        for (int k = 0; k < count; ++k)
+          if (separates(region, edge, (k + 0.5) / count)) length += edge.length() / count;
+  return length;
 }
-
-/// Integrals of the outward normal over the edges: none over what is closed.
-std::array<double, 2> open_ends(const std::vector<Edge>& edges) {
-  std::array<double, 2> sum{};
-  for (const Edge& edge : edges)
-    for (int k = 0; k < 200; ++k) {
-      const double angle = edge.normal((k + 0.5) / 200), part = edge.length() / 200;
-      sum[0] += part * std::cos(angle), sum[1] += part * std::sin(angle);
-    }
-  return sum;
-}
-
-void write_png(const std::string& file, int columns, int rows, const std::vector<unsigned char>& levels) {
-  png_image picture{};
-  picture.version = PNG_IMAGE_VERSION, picture.format = PNG_FORMAT_GRAY;
-  picture.width = static_cast<unsigned>(columns), picture.height = static_cast<unsigned>(rows);
-  REQUIRE(png_image_write_to_file(&picture, file.c_str(), 0, levels.data(), 0, nullptr) != 0);
-}
-
-/// A folder for a test's files.
-class Folder {
- public:
-  explicit Folder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / (name + std::to_string(std::random_device()()))) {
-    std::filesystem::create_directory(path_);
+void check_that_edges_separate(const Region& region) {
+  for (const Edge& edge : edges_of(region, false)) {
+    if (edge.length() < 1e-3) continue;
+    const Vector2 x = edge.place(0.5);
+    const double angle = edge.normal(0.5);
+    CHECK(contains(region, {x[0] - 1e-6 * std::cos(angle), x[1] - 1e-6 * std::sin(angle)}));
+    CHECK(!contains(region, {x[0] + 1e-6 * std::cos(angle), x[1] + 1e-6 * std::sin(angle)}));
   }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-MpmScene scene_of(const std::string& shape, const std::string& more = "") {
-  MpmScene scene;
-  scene.tables = body("body", shape, more);
-  return scene;
-}
-Scene read(const std::string& shape, const std::string& name = "test.toml") {
-  return parse_scene(scene_of(shape).text(), name);
-}
-std::string fault(const std::string& shape, const std::string& name = "test.toml") {
-  try {
-    read(shape, name);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace
@@ -159,13 +107,28 @@ TEST_CASE("every edge of a region separates inside from outside", "[scene]") {
   for (int number = 0; number < 100; ++number) {
     const Region region = random_region(random);
     CAPTURE(number);
-    for (const Edge& edge : edges_of(region, false)) {
-      if (edge.length() < 1e-3) continue;
-      const Vector2 x = edge.place(0.5);
-      const double angle = edge.normal(0.5);
-      CHECK(contains(region, {x[0] - 1e-6 * std::cos(angle), x[1] - 1e-6 * std::sin(angle)}));
-      CHECK(!contains(region, {x[0] + 1e-6 * std::cos(angle), x[1] + 1e-6 * std::sin(angle)}));
-    }
+    check_that_edges_separate(region);
+  }
+}
+
+TEST_CASE("of many shapes what lies between inside and outside is the edge, in whichever order they are told",
+          "[scene]") {
+  Random random(35);
+  for (int number = 0; number < 4; ++number) {
+    std::vector<Region> parts, holes;
+    for (int n = 0; n < 40; ++n) parts.emplace_back(random_shape(random, 25.0));
+    for (int n = 0; n < 40; ++n) holes.emplace_back(random_shape(random, 25.0));
+    const auto region = [&] { return without(Region(Union{parts}), holes); };
+    const ShapeMeasures found = measures(region(), Geometry::plane_strain);
+    CAPTURE(number);
+    check_that_edges_separate(region());
+    CHECK(found.perimeter == Approx(length_between(region(), parts, holes)).epsilon(0.01));
+    CHECK(found.area == Approx(by_points(region())[0]).epsilon(0.003));
+    std::ranges::reverse(parts);
+    std::ranges::reverse(holes);
+    const ShapeMeasures again = measures(region(), Geometry::plane_strain);
+    CHECK(again.perimeter == Approx(found.perimeter).epsilon(1e-12));
+    CHECK(again.area == Approx(found.area).epsilon(1e-12));
   }
 }
 
@@ -236,126 +199,4 @@ TEST_CASE("the gap to a hole is that to its edge", "[scene]") {
   CHECK(gap(moon, Disk{{-4.0, 0.0}, 1.0}) == Approx(1.0));
   CHECK(!common_point(plate, Disk{{5.0, 5.0}, 2.5}, 0.1, 1e-6));
   CHECK(common_point(plate, Disk{{5.0, 5.0}, 3.5}, 0.1, 1e-6));
-}
-
-TEST_CASE("a picture's pixels are a body, to the last of them", "[scene]") {
-  const Folder folder("vitrum_pictures");
-  Random random(33);
-  constexpr int columns = 23, rows = 17;
-  std::vector<unsigned char> levels;
-  for (int k = 0; k < columns * rows; ++k)
-    levels.push_back(static_cast<unsigned char>(random.integer(0, 3) * 80));
-  write_png(folder.file("paving.png"), columns, rows, levels);
-  double all = 0.0;
-  for (const int level : {0, 1, 2, 3}) {
-    const std::string shape =
-        fmt::format("image = {{file = \"paving.png\", corner = [1.5, -2.0], width = 11.5, grey = [{}, {}]}}",
-                    80 * level, 80 * level + 1);
-    const Scene scene = read(shape, folder.file("scene.toml"));
-    const Region& region = scene.bodies[0];
-    const double pixel = 0.5;
-    double area = 0.0, moment = 0.0;
-    for (int j = 0; j < rows; ++j)
-      for (int i = 0; i < columns; ++i) {
-        const Vector2 middle{1.5 + (i + 0.5) * pixel, -2.0 + (rows - 1 - j + 0.5) * pixel};
-        const bool expected = levels[static_cast<std::size_t>(j * columns + i)] == 80 * level;
-        REQUIRE(contains(region, middle) == expected);
-        if (expected) area += pixel * pixel, moment += middle[0] * pixel * pixel;
-      }
-    all += area;
-    CHECK(measures(region, Geometry::plane_strain).area == Approx(area).epsilon(1e-12));
-    CHECK(measures(region, Geometry::plane_strain).moment == Approx(moment).epsilon(1e-12));
-    for (const double cell : {0.5, 0.3, 1.7}) {
-      const auto found = sums(seed_shape(region, cell, 1, Geometry::plane_strain));
-      CHECK(found[0] == Approx(area).epsilon(1e-7));
-      CHECK(found[1] == Approx(moment).epsilon(1e-7));
-    }
-    const auto open = open_ends(edges_of(region, false));
-    CHECK(std::abs(open[0]) + std::abs(open[1]) < 1e-10);
-    // A disk cut out of it.
-    const Region cut = without(region, {Disk{{6.0, 2.0}, 2.2}});
-    CHECK(sums(seed_shape(cut, 0.3, 1, Geometry::plane_strain))[0] == Approx(by_points(cut)[0]).margin(0.3));
-    CHECK(resolved_toml(scene).find(
-              "image = {file = \"paving.png\", corner = [1.5, -2.0], width = 11.5, grey = [") !=
-          std::string::npos);
-  }
-  CHECK(all == Approx(11.5 * 8.5));
-  const auto image = [&](const std::string& name, const std::string& grey) {
-    return fault(fmt::format("image = {{file = \"{}\", width = 1.0, grey = {}}}", name, grey),
-                 folder.file("scene.toml"));
-  };
-  CHECK(
-      image("none.png", "[0, 1]").find("body.0.image.file': found \"none.png\", expected a PNG picture: ") !=
-      std::string::npos);
-  CHECK(image("paving.png", "[1, 2]")
-            .find("found no pixel of such a level in 'paving.png', expected some (they "
-                  "are from 0 to 240)") != std::string::npos);
-  CHECK(image("paving.png", "[2, 1]").find("the lowest level") != std::string::npos);
-  std::ofstream(folder.file("text.png")) << "no picture";
-  CHECK(image("text.png", "[0, 1]").find("Not a PNG file") != std::string::npos);
-  CHECK(image("other.png", "[0, 1]").find("found no such file, expected a PNG picture") != std::string::npos);
-  // A resolved scene is one of this picture.
-  const std::string resolved = resolved_toml(
-      read("image = {file = \"paving.png\", width = 1.0, grey = [0, 1]}", folder.file("scene.toml")));
-  CHECK(parse_scene(resolved, folder.file("scene.toml")).bodies[0].shape.index() == 4);
-  levels[0] = static_cast<unsigned char>(levels[0] ^ 1);
-  write_png(folder.file("paving.png"), columns, rows, levels);
-  CHECK_THROWS_WITH(
-      parse_scene(resolved, folder.file("scene.toml")),
-      Catch::Contains("body.0.image.sha256': found ") && Catch::Contains("expected the picture that"));
-}
-
-TEST_CASE("a polygon is read from a file, and needs three corners", "[scene]") {
-  const Folder folder("vitrum_polygons");
-  std::ofstream(folder.file("corners.csv")) << "x,y\n0,0\n3,0\n0,2\n";
-  std::ofstream(folder.file("two.csv")) << "0,0\n3,0\n";
-  const Scene scene = read("polygon = {csv = \"corners.csv\"}", folder.file("scene.toml"));
-  CHECK(std::get<Polygon>(scene.bodies[0].shape).vertices ==
-        std::vector<Vector2>{{0.0, 0.0}, {3.0, 0.0}, {0.0, 2.0}});
-  CHECK(measures(scene.bodies[0], Geometry::plane_strain).area == Approx(3.0));
-  CHECK(resolved_toml(scene).find("polygon = [[0.0, 0.0], [3.0, 0.0], [0.0, 2.0]]  # corners.csv") !=
-        std::string::npos);
-  CHECK(fault("polygon = {csv = \"two.csv\"}", folder.file("scene.toml")).find("2 vertices") !=
-        std::string::npos);
-  CHECK(fault("polygon = {csv = \"none.csv\"}", folder.file("scene.toml")).find("none.csv") !=
-        std::string::npos);
-  CHECK(fault("polygon = [[0, 0], [1, 0]]")
-            .find("found a list of 2, expected a list of three or more vertices") != std::string::npos);
-}
-
-TEST_CASE("unions and holes are read, written and told where they are wrong", "[scene]") {
-  const std::string shape =
-      "union = [{box = {min = [0, 0], max = [4, 1]}, hole = {disk = {centre = [1, 0.5], radius = 0.2}}}, "
-      "{disk = {centre = [4, 0.5], radius = 1}}]\n"
-      "hole = [{box = {min = [2, -1], max = [2.5, 0.5]}}, {ring = {centre = [4, 0.5], inner = 0.1, outer = "
-      "0.2}}]";
-  const Scene scene = read(shape);
-  const auto& parts = std::get<Union>(scene.bodies[0].shape).parts;
-  REQUIRE(parts.size() == 2);
-  CHECK(parts[0].holes.size() == 1);
-  CHECK(scene.bodies[0].holes.size() == 2);
-  // The half of the disk that lies over the box is a strip of 1 between its chords.
-  CHECK(measures(scene.bodies[0], Geometry::plane_strain).area ==
-        Approx(4.0 - 0.04 * pi + pi - (0.5 * std::sqrt(0.75) + pi / 6.0) - 0.25 - 0.03 * pi));
-  const std::string text = resolved_toml(scene);
-  CHECK(text.find("union = [{box = {min = [0.0, 0.0], max = [4.0, 1.0]}, hole = [{disk = {centre = [1.0, "
-                  "0.5], radius = "
-                  "0.2}}]}, {disk = ") != std::string::npos);
-  CHECK(resolved_toml(parse_scene(text, "resolved.toml")) == text);
-  CHECK(fault("box = {min = [0, 0], max = [1, 1]}\nhole = {disk = {centre = [0, 0]}}")
-            .find("key 'body.0.hole.disk.radius': found nothing") != std::string::npos);
-  CHECK(fault("box = {min = [0, 0], max = [1, 1]}\nhole = [{disk = {centre = [0, 0], radius = 0.1}}, {}]")
-            .find("key 'body.0.hole.1': found no shape") != std::string::npos);
-  CHECK(fault("union = [{ring = {centre = [0, 0], inner = 2, outer = 1}}]")
-            .find("key 'body.0.union.0.ring.outer'") != std::string::npos);
-  CHECK(fault("union = []").find("found an empty list, expected a list of shapes") != std::string::npos);
-  CHECK(fault("union = [{union = [{box = {min = [0, 0], max = [1, 1]}}]}]").find("found an unknown key") !=
-        std::string::npos);
-  CHECK(fault("box = {min = [0, 0], max = [1, 1]}\nhole = {polygon = [[0, 0], [1, 1], [1, 0], [0, 2]]}")
-            .find("key 'body.0.hole.polygon': found edges") != std::string::npos);
-  const auto warnings =
-      read("box = {min = [0, 0], max = [1, 1]}\nhole = {disk = {centre = [5, 5], radius = 1}}").warnings;
-  CHECK(std::ranges::count_if(warnings, [](const std::string& warning) {
-          return warning.find("key 'body.0.hole.disk': found it outside 'body.0.box'") != std::string::npos;
-        }) == 1);
 }
