@@ -11,6 +11,7 @@
 #include <set>
 
 #include "output/json_file.hpp"
+#include "output/quantity_scales.hpp"
 #include "output/result_reader.hpp"
 #include "scene/input_error.hpp"
 
@@ -33,14 +34,13 @@ void flatten(const Json& node, const std::string& name,
   }
 }
 
-std::vector<std::pair<std::string, std::optional<double>>> quantities_of(
-    const std::filesystem::path& directory) {
-  std::vector<std::pair<std::string, std::optional<double>>> found;
-  std::optional<Json> summary = read_json_object(directory / "summary.json");
-  if (!summary) return found;
+using Quantities = std::vector<std::pair<std::string, std::optional<double>>>;
+
+Quantities quantities_of(const Json& summary) {
+  Quantities found;
   for (const char* block : {"time", "energy", "failure", "bodies", "contacts"}) {
-    if (!summary->contains(block)) continue;
-    Json& part = summary->at(block);
+    if (!summary.contains(block)) continue;
+    Json part = summary.at(block);
     if (part.is_object() && part.contains("fragments") && part["fragments"].is_object())
       part["fragments"].erase("list");
     flatten(part, block, found);
@@ -123,14 +123,24 @@ std::string energy_unit_of(const ResultReader& result) {
   return "J";
 }
 
-std::vector<QuantityDifference> compare_summaries(const std::filesystem::path& a,
-                                                  const std::filesystem::path& b) {
-  const auto first = quantities_of(a), second = quantities_of(b);
+double duration_of(const ResultReader& result) {
+  return result.steps().empty() ? 0.0 : result.steps().back().time - result.steps().front().time;
+}
+
+std::vector<QuantityDifference> compare_summaries(const ResultReader& a, const ResultReader& b) {
+  const auto summary_of = [](const ResultReader& result) {
+    return read_json_object(result.path().parent_path() / "summary.json").value_or(Json::object());
+  };
+  const std::array<Json, 2> summaries{summary_of(a), summary_of(b)};
+  const QuantityScales scales(summaries, std::max(duration_of(a), duration_of(b)), energy_unit_of(a));
+  const Quantities second = quantities_of(summaries[1]);
   const std::map<std::string, std::optional<double>> in_b(second.begin(), second.end());
   std::vector<QuantityDifference> quantities;
-  for (const auto& [name, value] : first)
+  for (const auto& [name, value] : quantities_of(summaries[0]))
     if (const auto other = in_b.find(name); other != in_b.end())
-      quantities.push_back({name, value, other->second});
+      quantities.push_back({name, scales.unit(name), value, other->second,
+                            std::max({scales.scale(name), std::abs(value.value_or(0.0)),
+                                      std::abs(other->second.value_or(0.0))})});
   return quantities;
 }
 
@@ -141,12 +151,12 @@ double shortest_interval(std::span<const double> times) {
   return shortest;
 }
 
-bool differ(const std::optional<double>& a, const std::optional<double>& b, double tolerance) {
-  if (!a || !b) return a.has_value() != b.has_value();
-  return !(std::abs(*b - *a) <= tolerance * std::max(std::abs(*a), std::abs(*b)));
-}
-
 }  // namespace
+
+double QuantityDifference::relative() const {
+  if (a.has_value() != b.has_value()) return std::numeric_limits<double>::infinity();
+  return a == b ? 0.0 : std::abs(*b - *a) / scale;
+}
 
 std::vector<std::pair<std::size_t, std::size_t>> common_times(std::span<const double> a,
                                                               std::span<const double> b) {
@@ -167,10 +177,10 @@ std::vector<std::pair<std::size_t, std::size_t>> common_times(std::span<const do
 Comparison compare_results(const std::filesystem::path& path_a, const std::filesystem::path& path_b,
                            const ComparisonOptions& options) {
   const ResultReader a(path_a), b(path_b);
-  Comparison result{a.path().string(), b.path().string(), energy_unit_of(a), {}, {}, 0, 0, {}, false};
+  Comparison result{a.path().string(), b.path().string(), {}, {}, 0, 0, {}, false};
   result.outputs_a = a.steps().size();
   result.outputs_b = b.steps().size();
-  result.quantities = compare_summaries(a.path().parent_path(), b.path().parent_path());
+  result.quantities = compare_summaries(a, b);
   const ParticleConstants first = a.constants(), second = b.constants();
   result.without_fields = first.body.empty() || second.body.empty();
   result.remark = obstacle(first, second);
@@ -194,7 +204,7 @@ bool differ(const Comparison& comparison, double tolerance) {
   if (fields) return false;
   return !comparison.without_fields ||
          std::ranges::any_of(comparison.quantities, [tolerance](const QuantityDifference& q) {
-           return differ(q.a, q.b, tolerance);
+           return !(q.relative() <= tolerance);
          });
 }
 

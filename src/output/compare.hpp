@@ -11,8 +11,12 @@ namespace vitrum::output {
 
 /// A number that both results give, by its dotted name in summary.json; absent where a result says null.
 struct QuantityDifference {
-  std::string name;
+  std::string name, unit;
   std::optional<double> a, b;
+  double scale;  ///< what the difference is measured by: the larger of the two, or more (QuantityScales)
+
+  /// Infinite where one result alone says something.
+  double relative() const;
 };
 
 /// How far a field of B lies from that of A at a common time. A component that is NaN in both is equal; in
@@ -34,8 +38,7 @@ struct TimeDifference {
 
 /// Differences between two results.
 struct Comparison {
-  std::string a, b;         ///< the results' files
-  std::string energy_unit;  ///< "J", or "J/m" in plane strain
+  std::string a, b;  ///< the results' files
   std::vector<QuantityDifference>
       quantities;  ///< energy, failure, bodies and contacts of the summaries; empty without two summaries
   std::vector<TimeDifference> times;  ///< outputs that both have

@@ -22,31 +22,14 @@ std::optional<double> change(const QuantityDifference& q) {
   return q.a && q.b ? std::optional(*q.b - *q.a) : std::nullopt;
 }
 
-/// What energies, and thereby masses, are per: "" or "/m".
-std::string_view per(const std::string& energy_unit) {
-  return energy_unit.ends_with("/m") ? "/m" : "";
-}
-
-/// The unit of a quantity, by the last part of its name that is no number.
-std::string unit_of(const std::string& name, const std::string& energy_unit) {
-  const auto is = [&name](std::string_view word) { return name.find(word) != std::string::npos; };
-  const auto ends = [&name](std::string_view word) { return name.ends_with(word); };
-  if (ends("time")) return "s";
-  if (is(".momentum.") || is(".impulse.")) return energy_unit.ends_with("/m") ? "kg/s" : "kg m/s";
-  if (is(".centre.") || ends("radius") || ends("radius_max") || ends("opening") || ends("least_gap") || ends(".r") || ends(".z"))
-    return "m";
-  if (ends("mass")) return fmt::format("kg{}", per(energy_unit));
-  if (ends("relative_residual") || ends("max_growth")) return "1";
-  return name.starts_with("energy.") || ends(".kinetic") || ends(".friction_work") ? energy_unit : "1";
-}
-
 Json as_json(const Comparison& c) {
   Json quantities = Json::object(), times = Json::array();
   for (const QuantityDifference& q : c.quantities)
     quantities[q.name] = {{"a", number(q.a)},
                           {"b", number(q.b)},
                           {"difference", number(change(q))},
-                          {"unit", unit_of(q.name, c.energy_unit)}};
+                          {"relative", number(q.relative())},
+                          {"unit", q.unit}};
   for (const TimeDifference& t : c.times) {
     Json fields = Json::object();
     for (const FieldDifference& f : t.fields)
@@ -66,13 +49,6 @@ std::string shown(const std::optional<double>& value) {
   return value ? fmt::format("{:.7g}", *value) : "none";
 }
 
-/// Of the larger of the two; infinite where one result says nothing.
-double relative(const QuantityDifference& q) {
-  if (!q.a || !q.b) return std::numeric_limits<double>::infinity();
-  const double scale = std::max(std::abs(*q.a), std::abs(*q.b));
-  return scale == 0.0 ? 0.0 : std::abs(*q.b - *q.a) / scale;
-}
-
 std::string quantities_text(const Comparison& c) {
   if (c.quantities.empty()) return "no quantities: a summary.json is missing\n";
   std::vector<QuantityDifference> differing;
@@ -83,13 +59,13 @@ std::string quantities_text(const Comparison& c) {
   if (differing.empty()) return text;
   std::stable_sort(
       differing.begin(), differing.end(),
-      [](const QuantityDifference& x, const QuantityDifference& y) { return relative(x) > relative(y); });
+      [](const QuantityDifference& x, const QuantityDifference& y) { return x.relative() > y.relative(); });
   text += fmt::format("  {:<34} {:<6} {:>14} {:>14} {:>10}\n", "quantity", "unit", "A", "B", "relative");
   const std::size_t listed = std::min(differing.size(), listed_quantities);
   for (std::size_t n = 0; n < listed; ++n) {
     const QuantityDifference& q = differing[n];
-    text += fmt::format("  {:<34} {:<6} {:>14} {:>14} {:>10}\n", q.name, unit_of(q.name, c.energy_unit),
-                        shown(q.a), shown(q.b), q.a && q.b ? fmt::format("{:.2e}", relative(q)) : "");
+    text += fmt::format("  {:<34} {:<6} {:>14} {:>14} {:>10}\n", q.name, q.unit, shown(q.a), shown(q.b),
+                        q.a && q.b ? fmt::format("{:.2e}", q.relative()) : "");
   }
   if (listed < differing.size())
     text += fmt::format("  and {} that differ less (--json lists all)\n", differing.size() - listed);

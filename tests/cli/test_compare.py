@@ -74,6 +74,24 @@ class Compare(CommandLineTest):
         self.assertRegex(text, r"quantities of the summaries: \d+ of \d+ differ")
         self.assertIn("quantities of the summaries: 0 of", self.vitrum("compare", a, a).stdout)
 
+    def test_what_is_next_to_zero_is_measured_by_the_physics(self):
+        """Momentum across an axis of symmetry is rounding: another rounding is no difference, another speed is one."""
+        def run(name, seed, *settings):
+            moved = [f"body.{body}.perturbation={{amplitude = 1e-9, seed = {seed}}}" for body in (0, 1, 2)]
+            return self.run_scene(name, "--no-fields", *(word for setting in (*moved, *settings) for word in ("--set", setting)), scene=plane_strain)
+
+        a, b, c = run("a", 1), run("b", 2), run("c", 1, "body.1.velocity.1=-198.0")
+        same, other = self.compared(a, b)["quantities"], self.compared(a, c)["quantities"]
+        across = same["bodies.disk.momentum.0"]
+        self.assertGreater(abs(across["difference"]), 0.01 * max(abs(across["a"]), abs(across["b"])))
+        self.assertLess(max(quantity["relative"] for quantity in same.values()), 1e-5)
+        # The momentum of the disk's kinetic energy, which is half of the account: the other disk has as much a mass.
+        self.assertGreater(other["bodies.disk.momentum.1"]["relative"], 3e-3)
+        self.assertAlmostEqual(other["energy.kinetic"]["relative"], abs(other["energy.kinetic"]["difference"]) / other["energy.initial"]["a"], delta=1e-12)
+        self.vitrum("compare", a, b, "--tolerance", 1e-5)
+        self.vitrum("compare", a, c, "--tolerance", 1e-3, status=1)
+        self.assertNotIn("momentum.0", self.vitrum("compare", a, c).stdout)
+
     def test_last_and_fields(self):
         a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0")
         whole = self.compared(a, b)
