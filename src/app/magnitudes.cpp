@@ -7,6 +7,7 @@
 
 #include "scene/blast.hpp"
 #include "scene/shape_measures.hpp"
+#include "scene/shapes.hpp"
 
 namespace vitrum::app {
 namespace {
@@ -20,6 +21,32 @@ void warn_of_cell(const Scene& scene, Warnings& list) {
                       "see it deform",
                       scene.at("space.cell"), body.name, width, scene.cell));
   }
+}
+
+/// A duration in which a wave passes through the bodies more often than explicit steps could tell anything
+/// of, or in which something flies farther than there is a scene to fly through.
+void warn_of_end(const Scene& scene, const System& system, Warnings& list) {
+  constexpr double most_passages = 1e5, most_widths = 1e3, micro = 1e-6;
+  const double duration = scene.end - scene.start;
+  double across = 0.0, wave = 0.0, speed = 0.0;
+  for (std::size_t n = 0; n < system.bodies.size(); ++n) {
+    const Box box = bounds(scene.bodies[n]);
+    across = std::max({across, box.max[0] - box.min[0], box.max[1] - box.min[1]});
+    wave = std::max(wave, system.bodies[n].material->wave_speed());
+    speed = std::max(speed, largest_speed(system.bodies[n].particles));
+  }
+  for (const BoundaryDefinition& wall : scene.boundaries)
+    speed = std::max(speed, std::hypot(wall.velocity[0], wall.velocity[1]));
+  const double passages = duration * wave / across, widths = duration * speed / across;
+  const bool many = scene.integrator.method != GridMethod::arkode_implicit && passages > most_passages;
+  if (!many && !(widths > most_widths)) return;
+  list.push_back(fmt::format(
+      "{}: in {:g} s {}; end = {:g}: {}", scene.at("time.end"), duration,
+      many ? fmt::format("a wave passes {:.2g} times through the largest body ({:.3g} m)", passages, across)
+           : fmt::format("what moves at {:.3g} m/s goes {:.3g} m, and the largest body has {:.3g} m", speed,
+                         speed * duration, across),
+      scene.end,
+      passages * micro > 0.01 ? fmt::format("did you mean {:g}e-6?", scene.end) : "is it in seconds?"));
 }
 
 void warn_of_outputs(const Scene& scene, const System& system, const Work& work, Warnings& list) {
@@ -73,6 +100,7 @@ void warn_of_stresses(const Scene& scene, Warnings& list) {
 
 void warn_of_magnitudes(const Scene& scene, const System& system, const Work& work, Warnings& list) {
   warn_of_cell(scene, list);
+  warn_of_end(scene, system, list);
   warn_of_outputs(scene, system, work, list);
   warn_of_stresses(scene, list);
 }

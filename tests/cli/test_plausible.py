@@ -48,6 +48,18 @@ class Plausible(CommandLineTest):
                          "size=1e-3\nsamples=2\n")
         self.assertRegex(self.vitrum("point", point).stderr, r"warning: \S+point\.toml:3:7: key 'material\.m\.young': .*72e9")
 
+    def test_a_duration_in_other_units(self):
+        def told(**values):
+            return [line for line in self.warnings(**values) if "key 'time.end'" in line]
+
+        implicit = {"integrator": '{method = "arkode-implicit"}'}
+        (found,) = told(time__end=10.0)  # rods of 10 mm in which waves travel at 5.66 km/s
+        self.assertRegex(found, r"in 10 s a wave passes 5\.7e\+06 times through the largest body \(0\.01 m\); end = 10: did you mean 10e-6\?")
+        (found,) = told(time__end=10.0, **implicit)
+        self.assertRegex(found, r"what moves at 10 m/s goes 100 m, and the largest body has 0\.01 m; end = 10: did you mean 10e-6\?")
+        for values in (dict(time__end=1e-2), dict(time__end=100.0, body__0__velocity__0=1e-4, **implicit)):
+            self.assertEqual(told(**values), [])
+
     def test_speeds(self):
         self.assert_warns(r"key 'body\.0\.velocity': bodies 'comes' and 'waits' move at 6000 m/s .* faster than waves in 'comes'",
                           body__0__velocity__0=6000.0)
