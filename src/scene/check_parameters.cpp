@@ -25,6 +25,14 @@ std::string expected_parameter(std::string_view name, const Names& named,
                                known);
 }
 
+/// "NAME = VALUE": what the formulas with a parameter were evaluated with.
+std::optional<std::string> evaluated_with(std::string_view name,
+                                          const std::optional<std::vector<std::string>>& evaluated) {
+  for (const std::string& each : evaluated.value_or(std::vector<std::string>{}))
+    if (each.substr(0, each.find(" = ")) == name) return each;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::vector<std::string>> check_parameters(
@@ -41,16 +49,17 @@ std::optional<std::vector<std::string>> check_parameters(
   Diagnostics& diagnostics = document.diagnostics();
   const bool all_read = diagnostics.empty();
   std::vector<std::string> list;
-  for (const auto& [name, unused] : parameters) {
-    const bool was = evaluated && std::ranges::find(*evaluated, name) != evaluated->end();
-    if (was || numbers.contains(name)) list.push_back(name);
-    const std::string path = join_path("parameters", name);
-    if (!diagnostics.overridden(path)) continue;
-    if (was)
-      diagnostics.add(path, {}, path,
-                      "found it set in a resolved scene, where formulas with it are numbers by now, expected "
-                      "it to be set in the scene that was resolved");
-    else if (all_read && !named.contains(name))
+  for (const auto& [name, value] : parameters) {
+    const std::optional<std::string> was = evaluated_with(name, evaluated);
+    const std::string now = fmt::format("{} = {}", name, number_text(value)), then = was.value_or(now),
+                      path = join_path("parameters", name);
+    if (was || numbers.contains(name)) list.push_back(then);
+    if (now != then)
+      diagnostics.add(path, document.toml()["parameters"][name].node()->source().begin, path,
+                      fmt::format("found {} in a resolved scene, where formulas with it are numbers by now, "
+                                  "of {}; expected it to be set in the scene that was resolved",
+                                  now, then));
+    else if (all_read && diagnostics.overridden(path) && !was && !named.contains(name))
       diagnostics.add(path, {}, path, expected_parameter(name, named, parameters));
   }
   return list.empty() ? std::nullopt : std::optional(list);

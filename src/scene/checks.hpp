@@ -11,8 +11,9 @@
 /// faults to the diagnostics, and looks at nothing that has been reported before.
 namespace vitrum::scene {
 
-/// The parameters whose formulas are numbers now: those that the document says, and those of its own. Reports
-/// what --set gives to a parameter that no formula asks for any more, or ever did.
+/// "NAME = VALUE" of the parameters whose formulas are numbers now: those that the document says, and those
+/// of its own. Reports parameters that have another value than the numbers were made with, and what --set
+/// gives to one that no formula asks for.
 std::optional<std::vector<std::string>> check_parameters(
     const TableView& document, const schema::NamedNumbers& parameters,
     const std::optional<std::vector<std::string>>& evaluated);

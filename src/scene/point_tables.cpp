@@ -65,8 +65,8 @@ const Table& point_table() {
       {{"parameters", &P::parameters, "1", intervals::finite,
         "numbers by name, for formulas: wherever a number stands, a text that begins with `=` is one"},
        {"evaluated", &P::evaluated,
-        "of a failed point's file: parameters whose formulas have become numbers, so that `--set` cannot "
-        "change them"},
+        "of a failed point's file: parameters (`NAME = VALUE`) whose formulas have become numbers, so that "
+        "nothing changes with them any more"},
        Field<P>::named("material", &P::material, material_table(), "the material, as in a scene", required)
            .expecting("one table [material.NAME]"),
        {"constitutive", &P::constitutive, constitutive_table(), "as in a scene"},

@@ -41,7 +41,7 @@ of a file, relative to the scene's folder (`#` begins a comment, a first line in
 
 Any key can be given by its dotted path and as a TOML value: `--set time.end=1e-4`, `--set 'integrator.scheme="musl"'`.
 
-- **Parameters**: `--set parameters.R=0.4` changes all formulas with `R`. A parameter that no formula names is refused. So is, in a resolved scene, one whose formulas have become numbers (`evaluated`): set it in the scene that was resolved.
+- **Parameters**: `--set parameters.R=0.4` changes all formulas with `R`. A parameter that no formula names is refused. So is, in a resolved scene, another value of one whose formulas have become numbers (`evaluated`), by `--set` or by hand: set it in the scene that was resolved.
 - **Items of a list** go by index from 0, those that have a `name` by that as well: `--set body.0.velocity.1=-800`, `--set body.cylinder.velocity.1=-800`. A name with dots, or of digits, stands in quotes: `--set 'body."2".velocity.1=-800'`.
 - **Missing** keys and tables are created. Missing list items are not, except those of a list that has a default.
 - **`none`** takes a key, a table or an item of a list away, as if the file did not have it. `--set material.glass.damage=none` is glass without damage. `--set boundary.0=none` leaves the first boundary out; those behind it move up. `none` is no TOML value, so that nothing else
@@ -69,6 +69,7 @@ What is valid but hardly meant: `check` and `run` warn of
 
 - waves slower than 100 m/s or faster than 20 km/s, with the value that was probably meant;
 - bodies that approach each other faster than waves travel in one of them;
+- a duration in which waves pass through the largest body more than 100,000 times (explicit methods), or something flies a thousand times as far as that is wide: microseconds that are read as seconds;
 - a scene in which nothing moves, a body that flies past everything, a boundary that no body is at or heads for;
 - a disk or ring off the axis: a torus;
 - a part of a `union` that adds nothing, a `hole` that cuts nothing out or is narrower than a cell;

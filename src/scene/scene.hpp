@@ -185,7 +185,7 @@ struct ContactDefinition {
 struct Scene {
   std::string title;
   schema::NamedNumbers parameters;                    ///< of formulas
-  std::optional<std::vector<std::string>> evaluated;  ///< those of formulas that are numbers by now
+  std::optional<std::vector<std::string>> evaluated;  ///< "NAME = VALUE", of formulas that are numbers
   Geometry geometry = Geometry::axisymmetric;
   double cell = 0.0;  ///< m
   mpm::ShapeKind shape_functions = mpm::ShapeKind::gimp;

@@ -41,8 +41,9 @@ Table make_scene_table(Geometry geometry) {
        {"parameters", &Scene::parameters, "1", intervals::finite,
         "numbers by name, for formulas: wherever a number stands, a text that begins with `=` is one"},
        {"evaluated", &Scene::evaluated,
-        "of a resolved scene: parameters whose formulas have become numbers, so that `--set` cannot change "
-        "them"},
+        "of a resolved scene: parameters (`NAME = VALUE`) whose formulas have become numbers, so that "
+        "nothing "
+        "changes with them any more"},
        {"space", space_table(), "geometry and grid", required},
        {"time", time_table(), "time span", required},
        {"integrator", &Scene::integrator, integrator_table(), "the grid momentum equations", required},

@@ -89,14 +89,20 @@ TEST_CASE("a parameter that no formula asks for is not set in vain", "[scene]") 
       with(scene, "fix = [\"r\", \"z\"]", "fix = [\"r\", \"z\"]\nvelocity = [\"=-V*t\", \"=W*t/H\"]"),
       "s.toml", {"parameters.V=2", "parameters.W=3"});
   const std::string resolved = resolved_toml(driven);
-  CHECK(resolved.find("evaluated = [\"R\", \"H\"]\n") != std::string::npos);
+  CHECK(resolved.find("evaluated = [\"R = 0.2\", \"H = 0.004\"]\n") != std::string::npos);
   CHECK(told(resolved, "parameters.V=3").empty());
   for (const char* setting : {"parameters.R=0.3", "parameters.H=1", "parameters={R=1, H=2, V=3, W=4}"})
     CHECK_THAT(told(resolved, setting).at(0),
                Catch::StartsWith("--set 2: key 'parameters.") &&
-                   Catch::Contains("found it set in a resolved scene, where formulas with it are numbers by "
-                                   "now, expected it to be set in the scene that was resolved"));
+                   Catch::Contains(" in a resolved scene, where formulas with it are numbers by now, of ") &&
+                   Catch::EndsWith("; expected it to be set in the scene that was resolved"));
+  CHECK(told(resolved, "parameters.R=0.2").empty());  // as it was
   CHECK(told(scene_text, "evaluated=[]").empty());
+  // So it is by hand.
+  CHECK_THAT(told(with(resolved, "{R = 0.2,", "{R = 0.3,"), "title=\"y\"").at(0),
+             Catch::StartsWith("s.toml:2:19: key 'parameters.R': found R = 0.3 in a resolved scene") &&
+                 Catch::Contains(" of R = 0.2; "));
+  CHECK(told(with(resolved, "V = 2.0", "V = 2.5"), "title=\"y\"").empty());
 }
 
 TEST_CASE("formulas that cannot be", "[scene]") {
