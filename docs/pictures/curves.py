@@ -19,7 +19,7 @@ def draw():
             mark(axes, point, "e_rr", column, 1e3, scale)
     panels[0].set(xlabel="strain $\\varepsilon_{rr}$, 1/1000", ylabel="stress $\\sigma_{rr}$, MPa", title="glass, uniaxial strain")
     panels[1].set(xlabel="strain $\\varepsilon_{rr}$, 1/1000", ylabel="damage D", title="damage, eqs. 7 and 8, at three rates")
-    panels[1].legend(frameon=False, fontsize=8)
+    panels[0].legend(frameon=False, fontsize=8, loc="upper left")
     steel = vitrum.point(points[1])
     panels[2].plot(1e3 * steel["e_rr"], 1e-6 * steel["s_rr"], color=grey)
     mark(panels[2], steel, "e_rr", "s_rr", 1e3, 1e-6)

@@ -23,7 +23,7 @@ def draw():
     figure, axes = sheet(8.4, 3.3)
     for left, title, filled, text in (
             (0.8, "particles: arkode-explicit", False, "$x_p' = \\Sigma N v_i,\\;  v_p' = \\Sigma N f_i/m_i,\\;  e_p' = R^T D R,\\;  w_p'$\nthe grid is scratch: every stage projects anew"),
-            (5.2, "grid: arkode-implicit", True, "$u_i' = v_i,\\quad v_i' = f_i(u)/m_i$\nparticles keep their places for a phase, then\ntake over what the nodes have")):
+            (5.2, "grid: arkode-implicit", True, "$u_i' = v_i,\\quad v_i' = \\Sigma_j\\, M_{ij}\\, f_j(u)/(m_i m_j)$\nparticles keep their places for a phase, then\ntake over what the nodes have")):
         axes.text(left + 1.2, 3.0, title, ha="center", fontsize=11, fontweight="bold")
         cloud(axes, left, filled)
         axes.text(left + 1.2, 0.44, text, ha="center", va="center", fontsize=8, linespacing=1.6)
