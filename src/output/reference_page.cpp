@@ -29,23 +29,16 @@ A folder may be moved and copied as a whole: the links in it are relative.
 
 ## What a kill cannot break
 
-- No files but tables (`*.csv`) are ever written in place. Its next version is written to a hidden file (`.NAME.next`) and put in place by renaming:
-  at any moment, also after `kill -9`, each is complete, in its new or in its former version. A `.NAME.next` left behind by a kill may be deleted.
-- `result.h5` always leads to the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be
-  read while the run goes on; a program that has it open keeps the version that it opened. What others write into it is lost at the next output.
-- The door grows with the number n of outputs, by some 250 bytes each. So that the time of a run does not grow with the square of that number, it
-  follows in groups of n/64 where outputs follow each other within 50 ms. Outputs that it does not show yet are complete all the same.
-- A power cut, unlike a kill, may cost what came after the last checkpoint: outputs are forced to disk when a checkpoint is written and at the end of
-  the run, not one by one. Whole files of outputs may be missing or empty then; `--resume` goes on from the checkpoint.
-- Rows of tables are handed to the operating system as whole lines, those of `events.csv` some hundred at a time (a kill may cost the last 16 kB of them,
-  which a resumed run writes anew). A row that a kill has cut within the system's own call has no end of line.
-- A checkpoint carries the SHA-256 of its content and is refused when a single bit of it has changed. Doubles are restored bit for bit.
-- Truncated and foreign files are refused with a message. All that HDF5 files hold carries checksums: HDF5's own for their structure
-  (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every
-  reader, not another value. `vitrum info`, `compare` and `--resume` check what they read; they follow no links but open an output by its name,
-  and refuse one whose time is not that of the series.
-- `--resume` removes the outputs that its checkpoint does not know, cuts tables back, then continues. A resumed explicit run gives the
-  bits of an uninterrupted one; an adaptive run does from a planned checkpoint, and keeps its tolerance from one written on a signal.
+- **Files are replaced, not changed**, but for tables (`*.csv`). A file's next version is written under a hidden name (`.NAME.next`) and put in place by renaming. At any moment, also after `kill -9`, each is complete, in its new or in its former version.
+  A `.NAME.next` left behind by a kill may be deleted.
+- **`result.h5`** always leads to the outputs `00000 .. n-1` without a gap, and each series has exactly one row per output. It may be read while the run goes on. A program that has it open keeps the version that it opened. What others write into it is lost at the next output.
+- **The door grows** with the number n of outputs, by some 250 bytes each. Where outputs follow each other within 50 ms it is renewed after n/64 of them: the time of a run does not grow with the square of n. Outputs that it does not show yet are complete all the same.
+- **Tables** get whole lines, those of `events.csv` some hundred at a time. A kill may cost the last 16 kB of them, which a resumed run writes anew. A row that a kill has cut within the system's own call has no end of line.
+- **A power cut**, unlike a kill, may cost what came after the last checkpoint. Outputs are forced to disk when a checkpoint is written and at the end of the run, not one by one. Whole files of outputs may be missing or empty then; `--resume` goes on from the checkpoint.
+- **A checkpoint** carries the SHA-256 of its content. It is refused when a single bit of it has changed. Doubles are restored bit for bit.
+- **All that HDF5 files hold carries checksums**: HDF5's own for their structure (format 1.10) and for arrays (Fletcher-32), a SHA-256 for single texts. A byte that a failing disk alters there is an error for every reader, not another value. Truncated and foreign files are refused with a message.
+- **`vitrum info`, `compare` and `--resume`** check what they read. They follow no links but open an output by its name, and refuse one whose time is not that of the series.
+- **`--resume`** removes the outputs that its checkpoint does not know, cuts tables back, then continues. A resumed explicit run gives the bits of an uninterrupted one. An adaptive run does from a planned checkpoint. From one written on a signal it keeps its tolerance.
 
 ## A folder belongs to one run
 
@@ -67,18 +60,17 @@ A folder may be moved and copied as a whole: the links in it are relative.
 
 ## When something cannot be written
 
-- The run ends with status 4; the message names the file and the system's reason. Completed outputs stay as they are. The space of what
-  could not be completed is given back, and a checkpoint is tried: where it fits, `--resume` goes on at that very step when the cause has been mended.
-- Messages and progress are not part of the result: a terminal that has gone, a broken pipe or a full disk behind them ends no run.
-- SIGINT, SIGTERM and SIGHUP (without `nohup`) end a run after the step under way, with a checkpoint, and status 130, 143 or 129; a second SIGINT, at
-  least half a second later, ends it at once and without one.
+- The run ends with status 4. The message names the file and the system's reason. Completed outputs stay as they are.
+- The space of what could not be completed is given back, and a checkpoint is tried. Where it fits, `--resume` goes on at that very step when the cause has been mended.
+- Messages and progress are not part of the result. A terminal that has gone, a broken pipe or a full disk behind them ends no run.
+- SIGINT, SIGTERM and SIGHUP (without `nohup`) end a run after the step under way, with a checkpoint, and status 130, 143 or 129. A second SIGINT, at least half a second later, ends it at once and without one.
 
 ## `result.h5` and the outputs behind it
 
-HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. `/particles`, `/steps/NNNNN`, `/tables` and `/events` are external links, which
-h5py and other readers follow by themselves. Texts are UTF-8; those in datasets have a fixed length
-(h5py hands them out as bytes). Those in attributes are there twice: `unit`, of variable length, which h5py hands out as `str`, and `.unit`, of
-a fixed length, which this program reads: HDF5 keeps the former in a heap without checksums, where a flipped bit makes HDF5 1.10 loop.
+HDF5 in the 1.10 file format (any HDF5 from 1.10 on reads it), without compression. `/particles`, `/steps/NNNNN`, `/tables` and `/events` are external links, which h5py and other readers follow by themselves.
+
+Texts are UTF-8. Those in datasets have a fixed length; h5py hands them out as bytes. Those in attributes are there twice: `unit`, of variable length, is what h5py hands out as `str`; `.unit`, of a fixed length, is what this program reads. (HDF5 keeps the former in a heap without checksums, where a flipped
+bit makes HDF5 1.10 loop.)
 
 | object | type | meaning |
 |---|---|---|
@@ -171,9 +163,20 @@ constexpr std::string_view after_tables = R"(
 | `status`, `message` | `complete`, `failed` or `interrupted`; why |
 | `warnings` | list of all that standard error was warned of, before the run and at its end |
 | `time`, `particles`, `wall_seconds`, `total_seconds`, `threads` | time reached, s; particles; seconds spent in the time loop alone; seconds of the whole process, outputs and all (of a resumed run: both with those before the checkpoint); threads used |
-| `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `factor_entries` (most numbers in the sparse factors, 8 bytes each), `step_min`, `step_max` (s), `limited_by` {`stability`, `contact` (stability, where contact is stiffer than the grid), `accuracy` (or `max_step`), `output`, `remap`} (steps), `error_estimate` {`total`, `position`, `velocity`, `strain`} (sums of local errors over their scales; null: no estimate), `phases`, `remap_loss` (J; arkode-implicit) |
+| `integrator` | `method`, `steps`, `rejected`, `rhs_evaluations`, `newton_iterations`, `factorisations`, `step_min`, `step_max` (s), `phases` |
+| `integrator.factor_entries` | most numbers in the sparse factors, 8 bytes each |
+| `integrator.limited_by` | steps that were limited by `stability`, `contact` (stability, where contact is stiffer than the grid), `accuracy` (or `max_step`), `output`, `remap` |
+| `integrator.error_estimate` | `total`, `position`, `velocity`, `strain`: sums of local errors over their scales; null: no estimate |
+| `integrator.remap_loss` | J; arkode-implicit |
 | `constitutive` | `method`, `evaluations` (bodies that coast take none), `cvode_solves`, `cvode_steps`, `cvode_rhs`, `increments_solved`, `solves`, `solver_steps`, `solver_rhs`, `failures`, `events` |
-| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `snap_back` (the part of `fracture` that instantaneous releases dissipated), `contact` (stored between bodies), `friction` (dissipated between them), `filtered` (removed by `space.filter` and `space.transfer`), `removed` (gone with particles that left; only where `decohesion.separated` is `removed`), `ringing` (elastic energy of pressures that differ from their average over cells, at the end: [theory](../theory/resolution.md)), `external`, `residual` (what the numerics created, negative, or destroyed), `relative_residual`, `max_growth` (largest (kinetic + elastic) / initial) |
+| `energy` | `initial`, `kinetic`, `elastic`, `plastic`, `damage`, `fracture`, `external` |
+| `energy.snap_back` | the part of `fracture` that instantaneous releases dissipated |
+| `energy.contact`, `.friction` | stored between bodies; dissipated between them |
+| `energy.filtered` | removed by `space.filter` and `space.transfer` |
+| `energy.removed` | gone with particles that left; only where `decohesion.separated` is `removed` |
+| `energy.ringing` | elastic energy of pressures that differ from their average over cells, at the end: [theory](../theory/resolution.md) |
+| `energy.residual`, `.relative_residual` | what the numerics created (negative) or destroyed |
+| `energy.max_growth` | largest (kinetic + elastic) / initial |
 | `failure.first_damage`, `.first_localisation`, `.first_separation` | {`time`, `r`, `z`, `body`} |
 | `failure.localised`, `.separated` | particles at the end |
 | `failure.crack_area`, `.localised_volume` | m^2, m^3 (plane strain: per metre); sum over the localised particles of V0/L_e, and of V0. The area is what has a limit as cells shrink: cracks are a cell wide |
@@ -193,12 +196,19 @@ The first 512 bytes hold the line `vitrum checkpoint 5 sha256 DIGEST`, of all th
 state of everything else by name (`names` lists name and size, `values` holds the numbers; `texts`). It is made for `--resume` of the same version, not for analysis.
 )";
 
+/// Text of a table's cell: a bar would end it.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (const char letter : text) escaped += letter == '|' ? std::string("\\|") : std::string(1, letter);
+  return escaped;
+}
+
 std::string section_of(const TableInfo& table) {
   std::string text = fmt::format("\n### `{}.csv`\n\n{}\n\n| column | unit | meaning |\n|---|---|---|\n",
                                  table.name, table.description);
   for (const Column& column : table.columns)
     text += fmt::format("| `{}` | {}{} | {} |\n", column.name, column.unit.empty() ? "text" : column.unit,
-                        column.of_whole ? ", per metre in plane strain" : "", column.description);
+                        column.of_whole ? ", per metre in plane strain" : "", cell(column.description));
   return text;
 }
 
@@ -208,7 +218,7 @@ std::string result_reference() {
   std::string text(before_variables);
   for (const Component& column : all_columns())
     if (column.name != "damage")  // which the table has already
-      text += fmt::format("| `{}` | 1 | {} | {} |\n", column.name, column.unit, column.text);
+      text += fmt::format("| `{}` | 1 | {} | {} |\n", column.name, column.unit, cell(column.text));
   text += after_variables;
   text += before_tables;
   for (const ObserverKind& kind : observer_kinds())
