@@ -12,6 +12,7 @@
 #include "app/magnitudes.hpp"
 #include "app/material_warnings.hpp"
 #include "app/plausibility.hpp"
+#include "app/solver_advice.hpp"
 #include "integrators/grid/grid_method.hpp"
 #include "observe/probes.hpp"
 #include "scene/boundary_checks.hpp"
@@ -111,6 +112,7 @@ Warnings warnings(const Scene& scene, const System& system, int threads) {
   warn_of_magnitudes(scene, system, work, list);
   warn_of_step(scene, critical, list);
   warn_of_scheme(scene, list);
+  warn_of_factors(scene, system, list);
   warn_of_relaxation(scene, list);
   warn_of_snap_back(scene, list);
   for (const MaterialParameters& m : scene.materials)

@@ -248,6 +248,19 @@ class Plausible(CommandLineTest):
             self.vitrum("run", rods, "--out", "out", "--force", "--no-fields", *overrides(**{**idle, **active}))
             self.assertFalse(any("rtol" in line for line in read_summary(self.folder / "out")["warnings"]), active)
 
+    def test_factors_of_many_unknowns(self):
+        told = r"key 'integrator\.linear_solver': KLU takes most of a step with (\d+) unknowns; .*\"gmres\" .*\"diagonal\""
+        bar = source / "studies" / "performance" / "elastic_bar.toml"
+        waves = {"integrator__method": '"arkode-implicit"', "space__cell": 0.1e-3}
+        self.assert_warns(told, bar, **waves)
+        (unknowns,) = re.findall(told, "\n".join(self.warnings(bar, **waves)))
+        self.assertEqual(int(unknowns), 2 * 51 * 251)  # nodes of 50 x 250 cells
+        self.assertIn('elastic_bar.toml:13:1: key', self.vitrum("check", bar, *overrides(**waves)).stderr)
+        fewer = {"space__cell": 0.125e-3}  # 2 x 41 x 201 unknowns
+        slow = {"body__0__velocity__1": -1.0}  # elastic limits are met at 5.9 m/s
+        for change in (fewer, slow, {"integrator__linear_solver": '"gmres"'}, {"integrator__fixed_step": 1e-6}, {"integrator__method": '"explicit"'}):
+            self.assertFalse(re.search(told, "\n".join(self.warnings(bar, **{**waves, **change}))), change)
+
 
 if __name__ == "__main__":
     unittest.main()
