@@ -24,18 +24,6 @@ void ArkodeImplicit::prepare(System& system) {
   tolerated_energy_ = vitrum::tolerated_energy(system, settings_.scales, settings_.tolerance);
 }
 
-double longest_phase(const System& system, const RemapSettings& remap) {
-  double fastest = 0.0;
-  for (const Body& body : system.bodies)
-    for (std::size_t i = 0; i < body.particles.size; ++i)
-      fastest = std::max(fastest, std::hypot(body.particles.velocity[0][i], body.particles.velocity[1][i]));
-  // Held nodes may carry particles that do not know of their speed.
-  for (const mpm::Boundary& wall : system.grid.boundaries())
-    for (std::size_t c = 0; c < 2; ++c)
-      if (wall.fixed[c]) fastest = std::max(fastest, wall.top_speed(c));
-  return fastest > 0.0 ? std::min(remap.duration, remap.travel * system.cell / fastest) : remap.duration;
-}
-
 /// Phases up to a target, or to the next instant at which a boundary comes to hold other nodes or a
 /// rate jumps, are of equal length, and short enough for the fastest particle.
 double ArkodeImplicit::phase_end(const System& system, double target) const {

@@ -3,17 +3,9 @@
 
 #include "integrators/grid/adaptive_integrator.hpp"
 #include "integrators/grid/grid_system.hpp"
+#include "integrators/grid/phase_length.hpp"
 
 namespace vitrum {
-
-/// When a Lagrangian phase ends.
-struct RemapSettings {
-  double duration;       ///< s, at most; may be infinite
-  double travel = 0.25;  ///< cells that a particle may move
-  double strain = 0.02;  ///< that a particle may strain, or turn (rad)
-};
-/// The longest phase that the speeds of the present allow, s; infinite where nothing moves.
-double longest_phase(const System& system, const RemapSettings& remap);
 
 /// The grid system under ARKODE's diagonally implicit Runge-Kutta methods: Lagrangian phases of some steps
 /// each, after which particles move and the grid begins anew. Every target starts the solver anew, so that a
