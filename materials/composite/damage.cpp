@@ -36,6 +36,7 @@ double DamageLaw::dissipation(double x0, double x1, const SymmetricTensor& e0,
   const auto add = [&](double s, double weight_s) {
     const SymmetricTensor e = e0 + s * step;
     const double t = trace(e);
+    if (t <= 0.0) return;  // by rounding: where strain is all but shear a trace is the difference of equals
     // x and dx/ds on eq. 7 through its end point (x1 at trace1).
     const double x = x1 * power(t / trace1);
     const double rate = parameters_.m * x / t * (trace1 - trace0);

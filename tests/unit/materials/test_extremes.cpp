@@ -35,6 +35,21 @@ TEST_CASE("strain increments from 1e-12 to 1, and jumps in time", "[material][ex
   }
 }
 
+TEST_CASE("traces that are the rounding of a shear", "[material][extremes]") {
+  for (const NamedMaterial& named : all_compositions()) {
+    const auto material = composite_of(named.parameters, cell);
+    Random random(132);
+    for (const double size : {1e-30, 1e-18, 1e-9, 1e-4})
+      for (int i = 0; i < 200; ++i) {
+        CAPTURE(named.name, size, i);
+        const double a = random.tensor(size).rr;
+        const auto rounding = [&] { return Segment{random.tensor(1e-16 * size), 1e-8}; };
+        require_finite_and_dissipative(
+            *material, {{{a, -a, 0.0, size}, 1e-8}, rounding(), rounding(), rounding(), rounding()});
+      }
+  }
+}
+
 TEST_CASE("a zero increment changes nothing", "[material][extremes]") {
   for (const NamedMaterial& named : all_compositions()) {
     const auto material = composite_of(named.parameters, cell);
