@@ -26,12 +26,11 @@ void ArkodeImplicit::prepare(System& system) {
 
 /// Phases up to a target, or to the next instant at which a boundary comes to hold other nodes or a
 /// rate jumps, are of equal length, and short enough for the fastest particle.
-double ArkodeImplicit::phase_end(const System& system, double target) const {
+double ArkodeImplicit::phase_end(const System& system, double target, double longest) const {
   require_above_rounding(remap_.duration, "remap", system.time, target);
   target = std::min(target, mpm::next_load_change(system));
-  const double length = longest_phase(system, remap_);
   const double left = target - system.time;
-  const double phases = std::max(1.0, std::ceil(left / length - 1e-6));
+  const double phases = std::max(1.0, std::ceil(left / longest - 1e-6));
   return phases <= 1.0 ? target : system.time + left / phases;
 }
 
@@ -93,6 +92,12 @@ bool ArkodeImplicit::take_step(System& system, double phase_end, bool ends_at_ta
   return step.limit == ArkSolver::Limit::stop;
 }
 
+/// Whether shape functions of the phase's beginning are no longer good for where nodes have come to.
+bool ArkodeImplicit::has_gone_far(const double* y, double way_at_walls) const {
+  return grid_->deformation() > remap_.strain || grid_->travel(y) > remap_.travel ||
+         (std::isfinite(way_at_walls) && grid_->travel_at_walls(y) > way_at_walls);
+}
+
 bool ArkodeImplicit::advance(System& system, double target, StepObserver& observer) {
   if (!grid_) prepare(system);
   // Neither the order in which particles are stored and energies summed, nor pivots and rates of convergence
@@ -101,7 +106,8 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
   solver_.reset();
   bool goes_on = true;
   while (goes_on && system.time < target) {
-    const double end = phase_end(system, target);
+    const PhaseBounds bounds = phase_bounds(system, remap_);
+    const double end = phase_end(system, target, bounds.duration);
     const double began = system.time;
     begin_phase(system, end, target);
     bool phase_over = false;
@@ -111,7 +117,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
       if (phase_over) system.time = end;
       ++system.step_index;
       const double* y = solver_ ? solver_->y() : carried_.data();
-      phase_over = phase_over || grid_->deformation() > remap_.strain || grid_->travel(y) > remap_.travel;
+      phase_over = phase_over || has_gone_far(y, bounds.way_at_walls);
       system.record.filtered = 0.0;
       if (phase_over) {
         state_.remap_loss += grid_->end_phase(y), ++state_.phases;

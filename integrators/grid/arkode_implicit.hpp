@@ -22,7 +22,8 @@ class ArkodeImplicit final : public AdaptiveIntegrator {
  private:
   void prepare(System& system);
   void begin_phase(System& system, double phase_end, double target);
-  double phase_end(const System& system, double target) const;
+  double phase_end(const System& system, double target, double longest) const;
+  bool has_gone_far(const double* y, double way_at_walls) const;
   bool take_step(System& system, double phase_end, bool ends_at_target, double& length);
   sundials::ArkSolver::Step attempt(double phase_end);
   std::string describe_failure(const sundials::ArkSolver::Step& step) const;

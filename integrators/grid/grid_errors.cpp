@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "integrators/grid/grid_system.hpp"
@@ -13,6 +14,23 @@ double GridSystem::travel(const double* y) const {
   double way = 0.0;
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_.mass[k] > 1e-3 * mean_mass_) way = std::max(way, std::abs(y[k]));
+  return way / system_.cell;
+}
+
+double GridSystem::travel_at_walls(const double* y) const {
+  constexpr double reach = 3.0;  // cells: what stands at a wall has its nodes there
+  double way = 0.0;
+  for (const mpm::Boundary& wall : system_.grid.boundaries()) {
+    std::array<mpm::Rows, 2> rows;
+    for (std::size_t c = 0; c < 2; ++c)
+      rows[c] = wall.rows(c, wall.shift(c, system_.time, system_.cell), system_.cell);
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const std::array<int, 2> place = mpm::place_of(system_.grid, nodes_.node[k]);
+      if (rows[0].distance(place[0]) <= reach && rows[1].distance(place[1]) <= reach &&
+          nodes_.mass[k] > 1e-3 * mean_mass_)
+        way = std::max(way, std::abs(y[k]));
+    }
+  }
   return way / system_.cell;
 }
 

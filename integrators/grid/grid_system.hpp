@@ -65,6 +65,8 @@ class GridSystem final : public sundials::ReducibleSystem {
 
   /// Longest way of a node that matters (cells), largest strain or turn of a particle, since the phase began.
   double travel(const double* y) const;
+  /// Of the nodes near those that boundaries hold (cells).
+  double travel_at_walls(const double* y) const;
   double deformation() const { return deformation_; }
 
   /// Adds the estimated local errors of a step.

@@ -14,11 +14,6 @@ double time_for(double way, double speed) {
   return speed > 0.0 ? way / speed : never;
 }
 
-/// Cells from a coordinate to the nearest of the rows that a wall holds along an axis.
-double cells_to(const mpm::Rows& rows, double x, double cell) {
-  return std::max({rows.first - x / cell, x / cell - rows.last, 0.0});
-}
-
 /// Cells over which nodes act on a particle.
 double reach(const System& system, const Body& body) {
   switch (system.grid.shape()) {
@@ -43,39 +38,38 @@ double distance(const mpm::Boundary& wall, const Body& body, const System& syste
   double nearest = never;
   for (std::size_t i = 0; i < body.present(); ++i)
     nearest = std::min(
-        nearest, std::max(cells_to(rows[0], x[0][i], system.cell), cells_to(rows[1], x[1][i], system.cell)));
+        nearest, std::max(rows[0].distance(x[0][i] / system.cell), rows[1].distance(x[1][i] / system.cell)));
   return nearest;
 }
 
-/// Largest speed at which a body could come to a wall or leave it, m/s: that of its particles, and what their
-/// strain can give them.
+/// Largest speed of a body's particles towards a wall or away from it, m/s.
 double speed_at(const mpm::Boundary& wall, const Body& body) {
   const Particles& p = body.particles;
-  double moving = 0.0, strained = 0.0;
-  for (std::size_t i = 0; i < body.present(); ++i) {
-    for (std::size_t c = 0; c < 2; ++c)
-      if (wall.fixed[c]) moving = std::max(moving, std::abs(p.velocity[c][i] - wall.velocity[c]));
-    strained = std::max(strained, norm(tensor_at(p.elastic_strain, i)));
-  }
-  return moving + body.material->wave_speed() * strained;
+  double fastest = 0.0;
+  for (std::size_t c = 0; c < 2; ++c)
+    if (wall.fixed[c])
+      for (std::size_t i = 0; i < body.present(); ++i)
+        fastest = std::max(fastest, std::abs(p.velocity[c][i] - wall.velocity[c]));
+  return fastest;
 }
 
-/// The longest phase in which a wall may take hold of a body or let it go, s. Shape functions wider than a
-/// cell stop what comes with a speed v within sqrt(v/c) cells of their reach, and let go within as much. A
-/// longer phase, whose shape functions stand still, would miss the one and weld in the other.
-double longest_at(const mpm::Boundary& wall, const Body& body, const System& system, double travel) {
+/// What a wall that is about to take hold of a body or to let it go allows a phase. Shape functions wider
+/// than a cell stop what comes with a speed v within sqrt(v/c) cells of their reach, and let go within as
+/// much. A longer phase, whose shape functions stand still, would miss the one and weld in the other.
+PhaseBounds bounds_at(const mpm::Boundary& wall, const Body& body, const System& system, double travel) {
   constexpr double firm = 0.75;  // cells: what is so near cannot leave
-  constexpr double share = 0.1;  // of the depth at which it is stopped
+  constexpr double share = 0.1;  // of the depth at which it is, or will be stopped
   const double away = distance(wall, body, system), gap = away - reach(system, body);
-  if (away < firm || gap > travel) return never;
+  if (away < firm || gap > travel) return {never, never};
   const double speed = speed_at(wall, body);
-  const double depth = std::sqrt(speed / body.material->wave_speed());
-  return time_for(std::max(gap, share * depth) * system.cell, speed);
+  const double depth = std::max(std::sqrt(speed / body.material->wave_speed()), -gap);
+  const double way = std::max(gap, share * depth);
+  return {time_for(way * system.cell, speed), way};
 }
 
 }  // namespace
 
-double longest_phase(const System& system, const RemapSettings& remap) {
+PhaseBounds phase_bounds(const System& system, const RemapSettings& remap) {
   double fastest = 0.0;
   for (const Body& body : system.bodies)
     for (std::size_t i = 0; i < body.particles.size; ++i)
@@ -84,11 +78,14 @@ double longest_phase(const System& system, const RemapSettings& remap) {
   for (const mpm::Boundary& wall : system.grid.boundaries())
     for (std::size_t c = 0; c < 2; ++c)
       if (wall.fixed[c]) fastest = std::max(fastest, wall.top_speed(c));
-  double longest = std::min(remap.duration, time_for(remap.travel * system.cell, fastest));
+  PhaseBounds bounds{std::min(remap.duration, time_for(remap.travel * system.cell, fastest)), never};
   for (const mpm::Boundary& wall : system.grid.boundaries())
-    for (const Body& body : system.bodies)
-      longest = std::min(longest, longest_at(wall, body, system, remap.travel));
-  return longest;
+    for (const Body& body : system.bodies) {
+      const PhaseBounds here = bounds_at(wall, body, system, remap.travel);
+      bounds.duration = std::min(bounds.duration, here.duration);
+      bounds.way_at_walls = std::min(bounds.way_at_walls, here.way_at_walls);
+    }
+  return bounds;
 }
 
 }  // namespace vitrum

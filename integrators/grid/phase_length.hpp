@@ -10,7 +10,12 @@ struct RemapSettings {
   double strain = 0.02;  ///< that a particle may strain, or turn (rad)
 };
 
-/// The longest phase that the state of the present allows, s; infinite where nothing moves.
-double longest_phase(const System& system, const RemapSettings& remap);
+/// What the state of the present allows a phase.
+struct PhaseBounds {
+  double duration;      ///< s; infinite where nothing moves
+  double way_at_walls;  ///< cells that nodes near held ones may go; infinite where no body is about to meet
+                        ///< or to leave them
+};
+PhaseBounds phase_bounds(const System& system, const RemapSettings& remap);
 
 }  // namespace vitrum

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,8 @@ namespace vitrum::mpm {
 struct Rows {
   double first, last;
   bool any() const { return first <= last; }
+  /// Cells from a place (cells from the origin) to the nearest of them; 0 between the first and the last.
+  double distance(double place) const { return std::max({first - place, place - last, 0.0}); }
 };
 /// Those between two coordinates (m) or within rounding of them.
 Rows rows_between(double min, double max, double cell);

@@ -48,12 +48,15 @@ void read_field(const System& system, const NodalUnknowns& unknowns, Field compo
     values[k] = field[unknowns.component[k]][unknowns.node[k]];
 }
 
+std::array<int, 2> place_of(const Grid& grid, std::size_t node) {
+  const Block& block = grid.blocks()[node / block_nodes];
+  const int within = static_cast<int>(node % block_nodes);
+  return {block.column * block_side + within % block_side, block.row * block_side + within / block_side};
+}
+
 std::string describe_unknown(const System& system, const NodalUnknowns& u, std::size_t unknown) {
   const Grid& grid = system.grid;
-  const std::size_t n = u.node[unknown];
-  const Block& block = grid.blocks()[n / block_nodes];
-  const int i = block.column * block_side + static_cast<int>(n % block_nodes) % block_side,
-            j = block.row * block_side + static_cast<int>(n % block_nodes) / block_side;
+  const auto [i, j] = place_of(grid, u.node[unknown]);
   const double mean = std::accumulate(u.mass.begin(), u.mass.end(), 0.0) / static_cast<double>(u.size());
   const char* axes[2] = {system.axisymmetric ? "r" : "x", system.axisymmetric ? "z" : "y"};
   return fmt::format("{} of the node at ({:.6g}, {:.6g}) m, mass {:.3g} of the mean",

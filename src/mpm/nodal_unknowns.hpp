@@ -29,6 +29,8 @@ void fill_field(System& system, const NodalUnknowns& unknowns, const double* val
 /// The other way round: the unknowns of a field.
 void read_field(const System& system, const NodalUnknowns& unknowns, Field component_0, double* values);
 
+/// Column and row of a node, counted from the origin.
+std::array<int, 2> place_of(const Grid& grid, std::size_t node);
 /// Names an unknown: `r of node (0.01, 0.02) m, mass 1e-9 of the mean`.
 std::string describe_unknown(const System& system, const NodalUnknowns& unknowns, std::size_t unknown);
 
