@@ -142,7 +142,7 @@ def _page_values(members, found, orders, shipped_members, quick):
         "failed": sum(row["residual"] is None for row in rows), "full": not quick, "shipped": _shipped_table(shipped_members),
         "verdicts": _verdicts(orders, labels), "tables": "\n\n".join(_group(*each, found, quick) for each in asked(quick).values()),
         "first_single": _cell_text("first_time", found["single", "1"]["first_time"]), "first_bodies": _cell_text("first_time", found[base.name, "1"]["first_time"]),
-        "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}](figures/{key}.png)" for key, (title, _) in asked(quick).items()),
+        "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}: six measures of failure over the size of cells](figures/{key}.png)" for key, (title, _) in asked(quick).items()),
     }
 
 
