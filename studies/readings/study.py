@@ -231,7 +231,7 @@ def _page_values(quick, verdicts, effects, shares, cells, interactions):
         "interactions": markdown(["share of the variance (%)", "statement", "factors"], [[number(100 * share, 2), key, of] for share, key, of in pairs]),
         "cover": markdown(["combination", "adds"], [[words(steady[n].row) + f" ({steady[n].integration.label})", ", ".join(verdicts.statements[s].key for s in added)]
                                                     for n, added in group]),
-        "full_factors": ", ".join(by_key[key].label for key in full), "cases": " and ".join(f"R = {r} mm at {v} m/s" for r, v in (shown[:2] if quick else shown)),
+        "full_factors": ", ".join(by_key[key].label for key in full), "cases": "; ".join(f"R = {r} mm at {v} m/s" for r, v in (shown[:2] if quick else shown)),
     }
 
 
