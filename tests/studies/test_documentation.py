@@ -41,7 +41,7 @@ class Documentation(unittest.TestCase):
         is new, with its default, is a change of the program, which the commit tells.)"""
         from findings.cases import picture_cases
         from study.case import run_command
-        shown = re.search(r"\]\((\S+reference_case\.png)\)", (source / "README.md").read_text())[1]
+        shown = re.search(r'src="(\S+reference_case\.png)"', (source / "README.md").read_text())[1]
         text = png_text(source / shown)
         with tempfile.TemporaryDirectory(prefix="vitrum-") as folder:
             command = run_command(picture_cases(False)["reference"], folder)
@@ -56,7 +56,7 @@ class Documentation(unittest.TestCase):
     def test_every_picture_is_there_and_says_what_made_it(self):
         from PIL import Image
         for page in pages:
-            for name in re.findall(r"!\[[^]]*\]\(([^)]+\.png)\)", page.read_text()):
+            for name in re.findall(r'(?:!\[[^]]*\]\(|<img src=")([^)"]+\.png)', page.read_text()):
                 path = page.parent / name
                 self.assertTrue(path.exists(), f"{page.name} shows {name}, which is not there")
                 with Image.open(path) as picture:
