@@ -77,7 +77,7 @@ TEST_CASE("A rod that falls on held nodes leaves them with its speed, free of st
         const double stored = run.energy().elastic / run.energy().initial;
         CAPTURE(least, rebound, stored);
         CHECK(least < 0.1);  // it was stopped
-        CHECK(rebound == Approx(1.0).margin(0.05));
+        CHECK(rebound == Approx(1.0).margin(0.01));
         CHECK(stored < 0.03);
       }
 }
