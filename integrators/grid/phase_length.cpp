@@ -58,7 +58,7 @@ double speed_at(const mpm::Boundary& wall, const Body& body) {
 /// much. A longer phase, whose shape functions stand still, would miss the one and weld in the other.
 PhaseBounds bounds_at(const mpm::Boundary& wall, const Body& body, const System& system, double travel) {
   constexpr double firm = 0.75;  // cells: what is so near cannot leave
-  constexpr double share = 0.1;  // of the depth at which it is, or will be stopped
+  constexpr double share = 0.05;  // of the depth at which it is, or will be stopped
   const double away = distance(wall, body, system), gap = away - reach(system, body);
   if (away < firm || gap > travel) return {never, never};
   const double speed = speed_at(wall, body);
