@@ -16,7 +16,8 @@ PlacedPatch placed(const Patch& patch, const Configuration& at, std::size_t carr
           arm,
           turn + (side > 0.0 ? patch.angle : std::numbers::pi - patch.angle),
           patch.length,
-          patch.ring};
+          patch.ring,
+          patch.curvature};
 }
 
 }  // namespace

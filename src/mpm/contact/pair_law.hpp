@@ -36,6 +36,15 @@ struct Hat {
   }
 };
 
+/// 1 where the cosine between a normal and the direction that it faces is above 0.6, 0 from 0 down.
+inline Hat facing(double cosine) {
+  constexpr double fully = 0.6;
+  const Hat unfacing(std::max(0.0, cosine) / fully);
+  Hat facing = unfacing;
+  facing.value = 1.0 - unfacing.value, facing.slope = -unfacing.slope / fully;
+  return facing;
+}
+
 /// Potential of a penetration p (in depths), and its derivative: p^2/2, a pressure in proportion, up to half
 /// the depth; from there the pressure falls, to 0 at the whole depth, where what has come so far is let
 /// through.
@@ -52,42 +61,45 @@ struct Barrier {
   }
 };
 
-/// U = k A S W u(g) of two patches (docs/theory/contact.md): n bisects n_a and -n_b, g = (x_b - x_a).n is the
-/// gap, t the offset along the surface, W = hat(|t| / longer length) the overlap, S the facing (1 where the
-/// normals are within 53 degrees of opposite), A = (shorter length) x (smaller ring), u = depth^2 barrier(-g
-/// / depth).
+/// U = k A S W u(g) of two patches (docs/theory/contact.md): n is the mean of n_a and -n_b, each weighted by
+/// the other's curvature, as the line through the centres of two circles is, so that what is round or sharp
+/// meets a plane along the plane's normal. g = (x_b - x_a).n is the gap, t the offset along the surface, W =
+/// hat(|t| / longer length) the overlap, S the facing (1 where the normals are within 53 degrees of
+/// opposite), A = (shorter length) x (smaller ring), u = depth^2 barrier(-g / depth).
 inline PairForce pair_force(const PlacedPatch& a, const PlacedPatch& b, const PairStiffness& law) {
   PairForce f;
   const Vector d{b.place[0] - a.place[0], b.place[1] - a.place[1]};
   const double opposite = -std::cos(a.angle - b.angle);
   if (opposite <= 0.0) return f;
-  // The bisector turns with the mean of the two angles.
-  const Vector na{std::cos(a.angle), std::sin(a.angle)}, nb{std::cos(b.angle), std::sin(b.angle)};
-  const double size = std::hypot(na[0] - nb[0], na[1] - nb[1]);
-  const Vector n{(na[0] - nb[0]) / size, (na[1] - nb[1]) / size}, along{-n[1], n[0]};
+  const double curved = a.curvature + b.curvature, weight_a = curved > 0.0 ? b.curvature / curved : 0.5,
+               weight_b = 1.0 - weight_a;
+  const Vector na{std::cos(a.angle), std::sin(a.angle)}, nb{std::cos(b.angle), std::sin(b.angle)},
+      mean{weight_a * na[0] - weight_b * nb[0], weight_a * na[1] - weight_b * nb[1]};
+  const double size = std::hypot(mean[0], mean[1]);
+  const Vector n{mean[0] / size, mean[1] / size}, along{-n[1], n[0]};
+  // The share of a's turn by which the normal turns; that of b's is the rest.
+  const double share_a = weight_a * (weight_a + weight_b * opposite) / (size * size);
   const double gap = dot(d, n), offset = dot(d, along), width = std::max(a.length, b.length);
   f.normal = n, f.gap = gap;
   const Hat overlap(std::abs(offset) / width);
   if (overlap.value <= 0.0) return f;
-  constexpr double fully = 0.6;  // cosine from which on patches count as opposite
-  const Hat unfacing(opposite / fully);
-  const double facing = 1.0 - unfacing.value,
-               facing_slope = -unfacing.slope / fully * std::sin(a.angle - b.angle);  // d/d angle_a
-  f.overlap = facing * overlap.value;
+  const Hat faces = facing(opposite);
+  f.overlap = faces.value * overlap.value;
   const Barrier barrier(-gap / law.depth);
   if (barrier.value <= 0.0) return f;
   const double area = std::min(a.length, b.length) * std::min(a.ring, b.ring),
                kA = law.stiffness * area * law.depth * law.depth;
-  f.energy = kA * facing * overlap.value * barrier.value;
+  f.energy = kA * f.overlap * barrier.value;
   // Derivatives of U to g, t and the angles.
-  const double by_gap = -kA * facing * overlap.value * barrier.slope / law.depth,
-               by_offset = kA * facing * overlap.slope * std::copysign(1.0, offset) / width * barrier.value,
-               by_facing = kA * facing_slope * overlap.value * barrier.value,
-               by_turn = 0.5 * (by_gap * offset - by_offset * gap);
+  const double by_gap = -kA * f.overlap * barrier.slope / law.depth,
+               by_offset =
+                   kA * faces.value * overlap.slope * std::copysign(1.0, offset) / width * barrier.value,
+               by_facing = kA * faces.slope * std::sin(a.angle - b.angle) * overlap.value * barrier.value,
+               by_turn = by_gap * offset - by_offset * gap;  // of the normal
   for (std::size_t c = 0; c < 2; ++c) f.force[c] = -(by_gap * n[c] + by_offset * along[c]);
-  f.couple_a = -(by_facing + by_turn), f.couple_b = by_facing - by_turn;
+  f.couple_a = -by_facing - share_a * by_turn, f.couple_b = by_facing - (1.0 - share_a) * by_turn;
   f.pressure = std::max(0.0, -by_gap);
-  f.grip = law.stiffness * area * facing * overlap.value;
+  f.grip = law.stiffness * area * f.overlap;
   f.stiffness = std::max(0.0, f.grip * barrier.curvature);
   return f;
 }

@@ -27,6 +27,7 @@ struct Patch {
   double angle;           ///< rad, of the outward normal, counter-clockwise from r, at the start
   double length;          ///< m, along the surface
   double ring;  ///< area of a ring per length and radian: the radius at the start, m; 1 in plane strain
+  double curvature = 0.0;  ///< 1/m, of the surface about it, corners included, at the start
 };
 
 /// The particles that carry two patches of different bodies.
@@ -41,6 +42,7 @@ struct PlacedPatch {
   double angle;   ///< rad
   double length;  ///< m
   double ring;    ///< as Patch
+  double curvature = 0.0;
 };
 
 }  // namespace vitrum::mpm

@@ -16,7 +16,8 @@ PlacedPatch random_patch(Random& random, double angle) {
           {},
           angle + random.uniform(-1.0, 1.0),
           random.uniform(0.5, 1.5),
-          random.uniform(0.5, 2.0)};
+          random.uniform(0.5, 2.0),
+          random.uniform(0.0, 1.0) < 0.3 ? 0.0 : random.uniform(0.0, 2.0)};
 }
 
 constexpr PairStiffness law{3.0, 0.3};
@@ -105,6 +106,49 @@ TEST_CASE("A row of patches feels the same pressure wherever those of the other 
       CHECK(force == Approx(-law.stiffness * 0.1).epsilon(1e-12));
       CHECK(along == Approx(0.0).margin(1e-12));
     }
+}
+
+TEST_CASE("What is round or sharp is pushed along the normal of the plane that it meets", "[contact]") {
+  // A row of patches, and one of a sharper surface over it, anywhere and at any slope.
+  Random random(29);
+  for (int n = 0; n < 1000; ++n) {
+    const PlacedPatch one{{random.uniform(0.0, 1.0), random.uniform(-0.25, -0.02)},
+                          {},
+                          -0.5 * std::numbers::pi + random.uniform(-0.9, 0.9),
+                          1.0,
+                          1.0,
+                          random.uniform(0.01, 3.0)};
+    double energy = 0.0, down = 0.0, along = 0.0;
+    for (int k = -3; k <= 4; ++k) {
+      const PlacedPatch flat{{static_cast<double>(k), 0.0}, {}, 0.5 * std::numbers::pi, 1.0, 1.0, 0.0};
+      const PairForce f = pair_force(flat, one, law);
+      energy += f.energy, down += f.pressure, along += f.force[0];
+    }
+    CHECK(std::abs(along) < 1e-13);
+    // The pressure is that of its depth, whatever its slope.
+    const double facing =
+        pair_force({one.place, {}, 0.5 * std::numbers::pi, 1.0, 1.0, 0.0}, one, law).overlap;
+    CHECK(
+        down ==
+        Approx(facing * law.stiffness * law.depth * Barrier(-one.place[1] / law.depth).slope).margin(1e-13));
+    CHECK(energy > 0.0);
+  }
+}
+
+TEST_CASE("Circles meet along the line through their centres", "[contact]") {
+  Random random(31);
+  for (int n = 0; n < 1000; ++n) {
+    const double ra = random.uniform(2.0, 50.0), rb = random.uniform(2.0, 50.0),
+                 along = random.uniform(-0.5, 0.5);
+    // The places of both that lie opposite each other, along the line x = 0 of centres.
+    const double of_a = std::asin(along / ra), of_b = -0.5 * std::numbers::pi + std::asin(along / rb);
+    const PlacedPatch a{
+        {along, ra * (std::cos(of_a) - 1.0)}, {}, 0.5 * std::numbers::pi - of_a, 1.0, 1.0, 1.0 / ra},
+        b{{along, rb * (1.0 + std::sin(of_b)) - 0.1}, {}, of_b, 1.0, 1.0, 1.0 / rb};
+    const PairForce f = pair_force(a, b, law);
+    CHECK(std::abs(f.normal[0]) < 1e-14);
+    CHECK(f.normal[1] == Approx(1.0));
+  }
 }
 
 TEST_CASE("The search finds the pairs that are near, in their order", "[contact]") {

@@ -64,3 +64,39 @@ TEST_CASE("Patches are the surface: its area, its normals, each with the nearest
       CHECK(area == Approx(plane ? sample.plane : sample.axisymmetric).epsilon(2e-3));
     }
 }
+
+TEST_CASE("Patches know how round or sharp the surface is about them", "[contact]") {
+  const double pi = std::numbers::pi;
+  struct Curved {
+    std::string shape;
+    const char* geometry;
+    double axis, expected;  ///< r and 1/m of the patch that is nearest to the line r = axis
+  };
+  const std::string bite = "\nhole = {disk = {centre = [5.0, 0.0], radius = 1.0}}";
+  for (const Curved& c : {Curved{disk({5.0, 5.0}, 3.0), "plane-strain", 5.0, 1.0 / 3.0},
+                          {disk({0.0, 5.0}, 3.0), "axisymmetric", 0.0, 1.0 / 3.0},
+                          {box({0.0, 0.0}, {10.0, 3.0}), "plane-strain", 5.0, 0.0},
+                          {box({0.0, 0.0}, {10.0, 3.0}), "plane-strain", 0.1, 0.5 * pi / 0.125},
+                          {box({0.0, 0.0}, {10.0, 3.0}), "axisymmetric", 0.0, 0.0},
+                          {box({0.0, 0.0}, {10.0, 3.0}) + bite, "plane-strain", 4.0, 0.5 * pi / 0.125},
+                          {"polygon = [[0.0, 0.0], [4.0, 2.0], [0.0, 2.5]]", "axisymmetric", 0.0,
+                           2.0 * std::atan(0.5) / 0.125}}) {
+    CAPTURE(c.shape, c.geometry, c.axis);
+    MpmScene text;
+    text.geometry = c.geometry, text.cell = 0.5;
+    text.tables = body("one", c.shape, "particles_per_cell = 4");
+    const Scene scene = parse_scene(text.text(), "test.toml");
+    const System system = build_system(scene, 1);
+    const Body& one = system.bodies[0];
+    double least = 1e300, found = -1.0;
+    for (const mpm::Patch& patch : surface_patches(scene.bodies[0], scene.geometry, one)) {
+      const double r = one.particles.position[0][patch.carrier] + patch.offset[0],
+                   z = one.particles.position[1][patch.carrier] + patch.offset[1];
+      // Of those that face down; the lowest.
+      if (std::sin(patch.angle) < -0.5)
+        if (const double away = std::abs(r - c.axis) + 1e-6 * z; away < least)
+          least = away, found = patch.curvature;
+    }
+    CHECK(found == Approx(c.expected).epsilon(0.08).margin(1e-12));
+  }
+}
