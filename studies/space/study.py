@@ -96,7 +96,7 @@ def _converging(orders, setting):
     if not judged:
         return "One cell alone says nothing of convergence"
     settled = [f"{name} ({verdict})" for name, verdict in judged.items() if verdict != "no limit seen"]
-    return f"Over the cells {len(judged) - len(settled)} of {len(judged)} measures show no limit ({setting.label}). The others: {', '.join(settled) or 'none'}"
+    return f"Over the cells {len(judged) - len(settled)} of {len(judged)} measures show no limit ({setting.label}). The others: {'; '.join(settled) or 'none'}"
 
 
 def _group(title, settings, found, quick):
