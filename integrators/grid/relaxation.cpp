@@ -187,9 +187,9 @@ Relaxation relax(System& system, const std::vector<bool>& relaxed) {
     equilibrium.strain();
   }
   throw ComputationError(fmt::format(
-      "relaxation has found no equilibrium in {} iterations: the forces left could release {:.3g} of the "
-      "energy stored; a body whose stress or loads do not balance must be held by boundaries",
-      most, result.residual));
+      "relaxation has found no equilibrium in {} iterations: the forces left could release {:.3g} {}; a body "
+      "whose stress or loads do not balance must be held by boundaries",
+      most, result.residual, stored > 0.0 ? "of the energy stored" : "J where none is stored"));
 }
 
 }  // namespace vitrum

@@ -100,10 +100,10 @@ std::string fields_text(const Comparison& c) {
   std::string text =
       fmt::format("fields at {} common time{}, the last t = {:.6g} s: root mean square of B - A\n",
                   c.times.size(), c.times.size() == 1 ? "" : "s", c.times.back().time);
-  text += fmt::format("  {:<18} {:<6} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "field", "unit", "at last",
+  text += fmt::format("  {:<26} {:<6} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "field", "unit", "at last",
                       "at worst", "worst at, s", "relative", "largest");
   for (const FieldHistory& field : histories(c)) {
-    text += fmt::format("  {:<18} {:<6} {:>10.3e} {:>10.3e} {:>12.5e} {:>10.2e} {:>10.3e}", field.name,
+    text += fmt::format("  {:<26} {:<6} {:>10.3e} {:>10.3e} {:>12.5e} {:>10.2e} {:>10.3e}", field.name,
                         field.unit, field.last->rms, field.worst->rms, field.worst_time,
                         field.worst->relative, field.worst->largest);
     if (field.only_one > 0) text += fmt::format("  up to {} values in one result only", field.only_one);

@@ -48,6 +48,13 @@ class Plausible(CommandLineTest):
                          "size=1e-3\nsamples=2\n")
         self.assertRegex(self.vitrum("point", point).stderr, r"warning: \S+point\.toml:3:7: key 'material\.m\.young': .*72e9")
 
+    def test_viscous_start_that_is_not_unique(self):
+        told = r"material\.m\.decohesion\.q: with 0\.5, below 1, the traction falls infinitely fast at first"
+        damage, keys = "{toughness=1e6, k=1e20, m=6}", "opening=1e-6, mode_ratio=1.0"
+        self.assert_warns(told, material__m__damage=damage, material__m__decohesion=f"{{{keys}, q=0.5, viscosity=1e-7}}")
+        for more in ("q=1.0, viscosity=1e-7", "q=0.5"):
+            self.assertFalse(re.search(told, "\n".join(self.warnings(material__m__damage=damage, material__m__decohesion=f"{{{keys}, {more}}}"))), more)
+
     def test_a_duration_in_other_units(self):
         def told(**values):
             return [line for line in self.warnings(**values) if "key 'time.end'" in line]
