@@ -43,8 +43,8 @@ void warn_of_factors(const Scene& scene, const System& system, Warnings& list) {
   if (const std::size_t unknowns = unknowns_of(system); unknowns > many_unknowns)
     list.push_back(fmt::format(
         "{}: KLU takes most of a step with {} unknowns; linear_solver = \"gmres\" with preconditioner = "
-        "\"diagonal\" factors nothing: measured impacts took half of the time with 26,000 unknowns, a "
-        "quarter with 41,000",
+        "\"diagonal\" factors nothing: measured impacts took half of the time with 26,000 unknowns "
+        "and with 41,000",
         scene.at("integrator.linear_solver"), unknowns));
 }
 
