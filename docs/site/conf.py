@@ -19,7 +19,7 @@ navigation = {
                "theory/events", "theory/other-laws", "theory/local-equations", "theory/discrete-equations", "theory/grid", "theory/boundaries", "theory/loads", "theory/contact",
                "theory/turning-bodies", "theory/explicit", "theory/adaptive", "theory/integrators", "theory/energy", "theory/failure", "theory/resolution"],
     "Reference": ["reference/scene", "reference/materials", "reference/result"],
-    "Reports": ["reports/verification", "reports/findings", *studies, "reports/performance", "reports/performance-measurements", "reports/performance-history"],
+    "Reports": ["reports/verification", "reports/verification-measured", "reports/findings", *studies, "reports/performance", "reports/performance-measurements", "reports/performance-history"],
 }
 named = {page for pages in navigation.values() for page in pages}
 more = sorted({page.relative_to(docs).with_suffix("").as_posix() for page in docs.rglob("*.md")} - named - {"index"})

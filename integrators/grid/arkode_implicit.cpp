@@ -56,7 +56,7 @@ void ArkodeImplicit::begin_phase(System& system, double phase_end, double target
   }
   solver_->set_shortest_step(std::max(settings_.shortest_step.value_or(0.0),
                                       shortest_sensible_step(critical_step_, system.time, target)));
-  reached_.resize(solver_->size());
+  reached_.resize(grid_->size() + grid_->integrals());
   grid_->start(solver_->y());
   const double first =
       state_.next_step > 0.0 ? state_.next_step : settings_.first_step.value_or(critical_step_);
@@ -139,7 +139,7 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
 /// A step. Where none can be taken the phase ends at the last one, so that particles stand where their stress
 /// belongs. (ARKODE leaves its last attempt in y when the step is the shortest already.)
 ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
-  std::copy_n(solver_->y(), solver_->size(), reached_.begin());
+  std::copy_n(solver_->y(), reached_.size(), reached_.begin());
   const auto leave = [&] {
     count_work(solver_->counters(), before_, state_.counters);
     state_.remap_loss += grid_->end_phase(reached_.data()), ++state_.phases;

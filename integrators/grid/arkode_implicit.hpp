@@ -32,7 +32,7 @@ class ArkodeImplicit final : public AdaptiveIntegrator {
   sundials::LinearSolverKind linear_;
   std::unique_ptr<GridSystem> grid_;
   std::vector<double> carried_;  ///< the unknowns without a solver: the external work at most
-  std::vector<double> reached_;  ///< the unknowns at the end of the last step
+  std::vector<double> reached_;  ///< the unknowns and integrals at the end of the last step
   sundials::SparsePattern pattern_;
   double critical_step_ = 0.0;
 };
