@@ -3,6 +3,7 @@ import sys
 
 from study.command import main
 from study.outcome import run as compute
+from study.page import paper_title
 from study.tables import markdown, number, write_csv
 
 from space import figures
@@ -139,7 +140,7 @@ def _page_values(members, found, orders, shipped_members, quick):
     rows = [row for each in (members, shipped_members) for of_place in each.values() for row in of_place]
     return values | {
         "converging": _converging(orders, base), "runs": len(rows), "until": number(1e6 * (quick_end if quick else end)), "cells": "1 mm" if quick else "1, 0.5 and 0.25 mm",
-        "failed": sum(row["residual"] is None for row in rows), "full": not quick, "shipped": _shipped_table(shipped_members),
+        "failed": sum(row["residual"] is None for row in rows), "full": not quick, "paper": paper_title, "shipped": _shipped_table(shipped_members),
         "verdicts": _verdicts(orders, labels), "tables": "\n\n".join(_group(*each, found, quick) for each in asked(quick).values()),
         "first_single": _cell_text("first_time", found["single", "1"]["first_time"]), "first_bodies": _cell_text("first_time", found[base.name, "1"]["first_time"]),
         "pictures": "\n\n".join(f"![{title[0].upper() + title[1:]}: six measures of failure over the size of cells](figures/{key}.png)" for key, (title, _) in asked(quick).items()),

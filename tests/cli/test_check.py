@@ -79,7 +79,7 @@ class Check(CommandLineTest):
         self.assertNotIn("holds no node", self.vitrum("check", impact).stderr)
 
     def test_error_controlled_local_methods_take_longer(self):
-        """What a run takes lies between the two figures; processor seconds, whatever else the machine does."""
+        """What a run takes lies between the two figures; processor seconds, whatever else the machine does, and half a one to begin and end in."""
         for method, slower in (("closed-form", 1.0), ("substep", 3.0), ("cvode", 10.0)):
             with self.subTest(method):
                 settings = overrides(constitutive__method=f'"{method}"')
@@ -89,7 +89,7 @@ class Check(CommandLineTest):
                 took = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
                 self.assertGreaterEqual(facts["seconds_most"], slower * facts["seconds"])
                 self.assertGreater(took, 0.2 * facts["seconds"])
-                self.assertLess(took, 2.0 * facts["seconds_most"] + 0.1)
+                self.assertLess(took, 2.0 * facts["seconds_most"] + 0.5)
                 text = self.vitrum("check", impact, *settings).stdout
                 self.assertEqual("measured now" in text, method != "closed-form")
 
