@@ -17,7 +17,7 @@ import xml.etree.ElementTree
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parent))
 from assertions import comparison  # noqa: E402
-from study.page import measured_by  # noqa: E402
+from study.page import measured_by, paper_title  # noqa: E402
 
 root = here.parent.parent
 programs = ("verification", "stability")
@@ -84,7 +84,7 @@ def page(measured):
             "A test asserts a bound. How much of it does the program use up?\n\n"
             f"**Answer.** {len(tests)} tests make {sum(test.assertions for test in tests):,} assertions, and {len(shares)} of the tests compare values with a bound. "
             f"Half of these use less than {statistics.median(shares):.2g} of it at their nearest assertion. {len(near)} use more than 0.9.\n\n"
-            "What each test is about: [verification](verification.md). Only the nearest assertion of a test is shown. Of a property test it is the worst of all random states. "
+            f"What each test is about: [verification](verification.md). The paper in their names is *{paper_title}*. Only the nearest assertion of a test is shown. Of a property test it is the worst of all random states. "
             "Share: measured over an upper bound, a lower bound over measured, or the distance from a value over what is allowed. "
             "A property that is stated as a distance of ends (an order between 1.8 and 2.4) is nearest at one of its ends. Counts and truths have no share.\n")
     for program in programs:
