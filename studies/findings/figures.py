@@ -6,10 +6,12 @@ from vitrum.plot.crack_figures import cracks, fragment_masses, fragments
 from vitrum.plot.energy_figure import energy_history
 from vitrum.plot.looks import page_width
 from vitrum.plot.panels import Panel
-from vitrum.plot.particle_figures import damage, side_by_side, snapshots
+from vitrum.plot.particle_figures import damage, in_a_row, side_by_side, snapshots
+from vitrum.plot.views import View
 from study.figures import colours, plt, save
 
 reference_times = (-15e-6, 20e-6, 50e-6, 150e-6)  # s
+impact = View(-40e-3, 40e-3, -30e-3, 20e-3)  # m: where the cylinder goes through
 
 
 def of_runs(runs, folder):
@@ -17,7 +19,8 @@ def of_runs(runs, folder):
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):
         reference = runs["reference"]
         frames, last = reference.frames_at(reference_times), reference.frames_at(reference_times[1:])
-        for name, figure in (("reference_case", snapshots(reference, frames)), ("cracks", cracks(reference, last[:1] + last[-1:])),
+        for name, figure in (("reference_case", snapshots(reference, frames)), ("reference_case_in_a_row", in_a_row(reference, frames, impact)),
+                             ("cracks", cracks(reference, last[:1] + last[-1:])),
                              ("fragments", fragments(reference, last[:1] + last[-1:])), ("fragment-masses", fragment_masses(reference, last)),
                              ("damage", damage(reference, last[:1] + last[-1:]))):
             save(figure, folder, name, stamp.of_run(reference))

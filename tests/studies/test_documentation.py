@@ -41,7 +41,7 @@ class Documentation(unittest.TestCase):
         is new, with its default, is a change of the program, which the commit tells.)"""
         from findings.cases import picture_cases
         from study.case import run_command
-        shown = re.search(r'src="(\S+reference_case\.png)"', (source / "README.md").read_text())[1]
+        shown = re.search(r'src="(\S+reference_case_in_a_row\.png)"', (source / "README.md").read_text())[1]
         text = png_text(source / shown)
         with tempfile.TemporaryDirectory(prefix="vitrum-") as folder:
             command = run_command(picture_cases(False)["reference"], folder)

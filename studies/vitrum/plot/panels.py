@@ -88,8 +88,8 @@ def _strip_of(run, layout):
 
 
 def _title_lines(run, what, width):
-    """The scene's title, folded to the figure's width (inches), above what the figure shows."""
-    return [*textwrap.wrap(run.title, max(20, int(width / 0.085))), what]
+    """The scene's title, folded to the figure's width (inches), above what the figure shows; none where a caption says both."""
+    return [*textwrap.wrap(run.title, max(20, int(width / 0.085))), what] if what else []
 
 
 def _legend_columns(handles, width):

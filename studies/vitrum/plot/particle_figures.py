@@ -32,6 +32,12 @@ def snapshots(run, frames):
     return draw_panels(panels, _by_body, _everything, Layout(), "Snapshots", _body_handles(panels))
 
 
+def in_a_row(run, frames, view):
+    """Snapshots of one part of the scene, all in one row: a picture as wide as a page and low."""
+    panels = at_times(run, frames)
+    return draw_panels(panels, _by_body, _everything, Layout(columns=len(panels)), "", _body_handles(panels), view)
+
+
 def side_by_side(panels, what):
     """Snapshots of several runs of one scene, in the view of the first."""
     return draw_panels(panels, _by_body, _everything, Layout(columns=min(3, len(panels))), what, _body_handles(panels))
