@@ -19,5 +19,5 @@ def draw():
     account.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     residual.plot(time, 100 * energy["residual"] / run.summary["energy"]["initial"], color="black")
     residual.axhline(0, color=grey, linewidth=0.6)
-    residual.set(xlabel="time, $\\mu$s", ylabel="residual, %")
+    residual.set(xlabel="time, µs", ylabel="residual, %")
     save(figure, "energy")

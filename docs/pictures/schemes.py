@@ -7,14 +7,14 @@ schemes = {"USF": [project, strain, force, move], "USL": [project, force, move, 
 
 
 def draw():
-    figure, axes = sheet(8.6, 2.9)
+    figure, axes = sheet(8.6, 3.1)
     for row, (name, steps) in enumerate(schemes.items()):
-        y = 2.4 - 0.9 * row
+        y = 2.6 - 1.0 * row
         axes.text(0.15, y, name, fontsize=11, fontweight="bold", va="center")
         for n, (text, colour) in enumerate(steps):
-            box(axes, 1.5 + 1.55 * n, y, text, colour, width=1.38, height=0.58, fontsize=7.5)
+            box(axes, 1.45 + 1.53 * n, y, text, colour, width=1.4, height=0.66, fontsize=9)
             if n:
-                arrow(axes, (1.5 + 1.55 * (n - 1) + 0.69, y), (1.5 + 1.55 * n - 0.69, y))
-    axes.text(8.45, 2.4, "strain of old velocities", ha="right", va="center", color=grey, fontsize=8)
-    axes.text(8.45, 1.5, "strain of new velocities", ha="right", va="center", color=grey, fontsize=8)
+                arrow(axes, (1.45 + 1.53 * (n - 1) + 0.7, y), (1.45 + 1.53 * n - 0.7, y))
+    axes.text(8.45, 2.6, "strain from\nold velocities", ha="right", va="center", color=grey, fontsize=9)
+    axes.text(8.45, 1.6, "strain from\nnew velocities", ha="right", va="center", color=grey, fontsize=9)
     save(figure, "schemes")

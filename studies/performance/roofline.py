@@ -36,7 +36,7 @@ def draw_roofline(benchmarks, path, version):
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
     for peak, label in ((vector, f"vector peak, {vector / 1e9:.0f} Gflop/s"), (scalar, f"scalar peak, {scalar / 1e9:.0f} Gflop/s")):
         axes.loglog(intensity, [min(peak, bandwidth * x) / 1e9 for x in intensity], label=label)
-    axes.loglog([], [], " ", label=f"memory (triad), {bandwidth / 1e9:.0f} GB/s")
+    axes.loglog([], [], " ", label=f"slope: memory (triad), {bandwidth / 1e9:.0f} GB/s")
     x = counts.flops(4) / counts.bytes_moved()
     for label, rate in scene_points(benchmarks):
         axes.loglog([x], [rate * counts.flops(4) / 1e9], "o", label=f"bar, {label}")
