@@ -16,11 +16,12 @@ drawn = {"snapshots": snapshots, "damage": damage, "opening": opening, "cracks":
 
 def paper_figures(outcomes, folder):
     """In the manner of the paper's figures at its times, as far as a run came: all kinds of the resolved run of either reading, the snapshots of the paper's step.
-    `outcomes`: by ((radius, speed), treatment)."""
+    `outcomes`: by ((radius, speed), treatment). Each is titled by its case: all have the scene of one, and its title."""
     with matplotlib.rc_context({**matplotlib.rcParamsDefault, "backend": "Agg"}):
         for (case, treatment), outcome in outcomes.items():
-            for kind in {"b": drawn, "alternative-b": drawn, "a-usf": ["snapshots"]}.get(treatment, []) if case in shown else []:
-                run, name = outcome.results, f"R{case[0]}-v{case[1]}-{treatment}-{kind}"
+            for kind in {"b": drawn, "alternative-b": drawn, "a-usf": ["snapshots"]}.get(treatment.key, []) if case in shown else []:
+                run, name = outcome.results, f"R{case[0]}-v{case[1]}-{treatment.key}-{kind}"
+                run.title = f"R = {case[0]} mm, {case[1]} m/s: {treatment.label}"
                 reached = [1e-6 * time for time in shown[case] if 1e-6 * time <= run.frames[-1].time + 1e-9] or [run.frames[-1].time]
                 figure = drawn[kind](run, run.frames_at(reached))
                 if figure is not None:

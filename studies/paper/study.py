@@ -105,7 +105,7 @@ def report(quick, out):
     resolved = [treatment for treatment in treatments if treatment.key in ("b", "c-1e-2", "alternative-b")]
     fronts({treatment.label: {key[:2]: history for key, history in histories.items() if key[2] == treatment} for treatment in resolved},
            figures, "fronts")
-    paper_figures({(key[:2], key[2].key): history.outcome for key, history in histories.items()}, figures)
+    paper_figures({(key[:2], key[2]): history.outcome for key, history in histories.items()}, figures)
     return _page_values(study, every, histories, rows, case_rows, treatments, quick)
 
 

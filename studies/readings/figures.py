@@ -37,7 +37,8 @@ def matrix(verdicts, design, folder, name, sound=0.05):
     axes = panels[-1, 0]
     axes.imshow(np.array(rows).T, cmap="Greys", vmin=0, vmax=max(counts) - 1, aspect="auto", interpolation="nearest")
     axes.set_yticks(range(len(factors)), [factor.label for factor in factors], fontsize=6)
-    axes.set_xticks(range(len(rows)), range(1, len(rows) + 1), fontsize=6)
+    numbers = range(4, len(rows) + 1, 4)
+    axes.set_xticks([number - 1 for number in numbers], numbers, fontsize=6)
     axes.set_xlabel("reading (white: the reference's level; the darker, the later it stands in the table of factors)")
     axes.grid(False)
     legend_below(figure, [Patch(facecolor=colour, edgecolor="#999999", label=label) for label, colour in kinds.items()])
