@@ -160,8 +160,9 @@ ArkSolver::Step ArkodeImplicit::attempt(double phase_end) {
 std::string ArkodeImplicit::advice_on_loss(const System& system, double step, double lost) const {
   if (!(state_.remap_loss > 0.5 * lost)) return advice(system, step);
   return fmt::format(
-      "most of it at remaps, where material is pressed by more than {:g} %: try more particles a cell, "
-      "integrator.remap_travel = {:.2g}, or integrator.method = \"arkode-explicit\"",
+      "most of it at remaps, where material is pressed by more than {:g} %: in impacts try "
+      "integrator.method = \"arkode-explicit\" with integrator.order = 4, in slow scenes more particles "
+      "a cell or integrator.remap_travel = {:.2g}",
       100.0 * mpm::ConsistentMass::lumped_from, 0.2 * remap_.travel);
 }
 

@@ -52,7 +52,7 @@ class Results(CommandLineTest):
         sparse.write_text(die.read_text().replace("particles_per_cell = 4", "particles_per_cell = 1"))
         pressed = overrides(integrator__method='"arkode-implicit"', integrator__remap_travel=0.25, space__shape_functions='"gimp"')
         for scene, settings, said, advice in ((tile, [], "try integrator.order = 4, or", "integrator.order=4"),
-                                              (sparse, pressed, "try more particles a cell, integrator.remap_travel = 0.05, or", "body.0.particles_per_cell=4")):
+                                              (sparse, pressed, "in slow scenes more particles a cell or integrator.remap_travel = 0.05", "body.0.particles_per_cell=4")):
             with self.subTest(advice):
                 lost, words = self.lost("before " + advice, scene, *settings)
                 self.assertIn(said, words)

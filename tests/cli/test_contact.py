@@ -1,6 +1,7 @@
 """Bodies with velocity fields of their own: what a scene says, and what a run keeps of it."""
 import csv
 import json
+import re
 import unittest
 
 import h5py
@@ -10,6 +11,8 @@ from support import CommandLineTest, here, overrides, read_csv, read_summary
 
 slide = here / "scenes" / "slide.toml"
 rods = here / "scenes" / "rods.toml"
+corner = here / "scenes" / "corner.toml"
+ends = here / "scenes" / "ends.toml"
 impact = here / "scenes" / "impact.toml"
 
 
@@ -129,6 +132,46 @@ class Contact(CommandLineTest):
         (a, _), warned = speeds("shallow", "--set", "contact.depth=0.5")
         self.assertLess(a, -0.9 * 2500)
         self.assertTrue([text for text in warned if "give way" in text], warned)
+
+
+class Loss(CommandLineTest):
+    drift = overrides(body__0__velocity__1=126.9, body__1__velocity__1=42.5)
+
+    def told(self, name, *settings, scene):
+        summary = read_summary(self.run_scene(name, *settings, scene=scene))
+        return summary["energy"]["relative_residual"], [line for line in summary["warnings"] if "the numerics" in line]
+
+    def lost(self, line):
+        return float(re.search(r"the numerics lost (\S+) % of the energy that bodies have about their common centre of mass", line)[1])
+
+    def test_no_frame_hides_it(self):
+        """A collision that loses a twelfth of its energy says so, however fast both bodies fly the same way."""
+        for name, frame, share in (("slow", (), 0.05), ("fast", self.drift, 0.0)):
+            with self.subTest(name):
+                residual, (line,) = self.told(name, *frame, scene=ends)
+                self.assertGreater(residual, share)
+                self.assertTrue(5.0 < self.lost(line) < 12.0, line)
+                self.assertIn("integrator.order = 4", line)
+        self.assertLess(residual, 0.02)  # of what the fast frame has
+
+    def test_what_is_held_has_one_frame(self):
+        wall = ("--set", 'boundary=[{box={min=[-inf,-1.0],max=[inf,-0.9]},fix=["z"]}]')
+        residual, lines = self.told("held", *self.drift, *wall, scene=ends)
+        self.assertLess(residual, 0.02)
+        self.assertEqual(lines, [])
+
+    def test_what_is_advised_helps(self):
+        residual, lines = self.told("ends", *overrides(integrator__order=4), scene=ends)
+        self.assertLess(abs(residual), 0.01)
+        self.assertEqual(lines, [])
+        residual, (line,) = self.told("remaps", scene=corner)
+        self.assertLess(residual, 0.05)  # of what the frame has
+        self.assertGreater(self.lost(line), 5.0)
+        for key in ("at remaps", "arkode-explicit", "integrator.order = 4"):
+            self.assertIn(key, line)
+        residual, lines = self.told("steps", "--set", 'integrator.method="arkode-explicit"', *overrides(integrator__order=4), scene=corner)
+        self.assertLess(abs(residual), 0.001)
+        self.assertEqual(lines, [])
 
 
 if __name__ == "__main__":
