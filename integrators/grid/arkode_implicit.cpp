@@ -34,8 +34,7 @@ double ArkodeImplicit::phase_end(const System& system, double target, double lon
   return phases <= 1.0 ? target : system.time + left / phases;
 }
 
-void ArkodeImplicit::begin_phase(System& system, double phase_end, double target) {
-  grid_->begin_phase();
+void ArkodeImplicit::start_solver(System& system, double phase_end, double target) {
   critical_step_ = critical_step(system, stability_limit(StepScheme::musl)).step;
   if (settings_.fixed_step) require_above_rounding(*settings_.fixed_step, "fixed_step", system.time, target);
   if (settings_.longest_step)
@@ -106,10 +105,11 @@ bool ArkodeImplicit::advance(System& system, double target, StepObserver& observ
   solver_.reset();
   bool goes_on = true;
   while (goes_on && system.time < target) {
+    grid_->begin_phase();
     const PhaseBounds bounds = phase_bounds(system, remap_);
     const double end = phase_end(system, target, bounds.duration);
     const double began = system.time;
-    begin_phase(system, end, target);
+    start_solver(system, end, target);
     bool phase_over = false;
     while (!phase_over) {
       double length = 0.0;

@@ -21,7 +21,7 @@ class ArkodeImplicit final : public AdaptiveIntegrator {
 
  private:
   void prepare(System& system);
-  void begin_phase(System& system, double phase_end, double target);
+  void start_solver(System& system, double phase_end, double target);
   double phase_end(const System& system, double target, double longest) const;
   bool has_gone_far(const double* y, double way_at_walls) const;
   bool take_step(System& system, double phase_end, bool ends_at_target, double& length);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "integrators/grid/grid_system.hpp"
+#include "integrators/grid/phase_length.hpp"
 
 namespace vitrum {
 
@@ -20,15 +21,16 @@ double GridSystem::travel(const double* y) const {
 double GridSystem::travel_at_walls(const double* y) const {
   constexpr double reach = 3.0;  // cells: what stands at a wall has its nodes there
   double way = 0.0;
-  for (const mpm::Boundary& wall : system_.grid.boundaries()) {
-    std::array<mpm::Rows, 2> rows;
-    for (std::size_t c = 0; c < 2; ++c)
-      rows[c] = wall.rows(c, wall.shift(c, system_.time, system_.cell), system_.cell);
+  const std::vector<mpm::Boundary>& walls = system_.grid.boundaries();
+  for (std::size_t wall = 0; wall < walls.size(); ++wall) {
+    std::array<double, 2> gone{};
+    for (std::size_t c = 0; c < 2 && walls[wall].moves; ++c)
+      gone[c] = walls[wall].way(c, start_time_, committed_time_);
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
-      const std::array<int, 2> place = mpm::place_of(system_.grid, nodes_.node[k]);
-      if (rows[0].distance(place[0]) <= reach && rows[1].distance(place[1]) <= reach &&
-          nodes_.mass[k] > 1e-3 * mean_mass_)
-        way = std::max(way, std::abs(y[k]));
+      const auto [column, row] = mpm::place_of(system_.grid, nodes_.node[k]);
+      if (nodes_.mass[k] > 1e-3 * mean_mass_ &&
+          cells_to_held(system_.grid, wall, {static_cast<double>(column), static_cast<double>(row)}) <= reach)
+        way = std::max(way, std::abs(y[k] - gone[nodes_.component[k]]));
     }
   }
   return way / system_.cell;

@@ -65,7 +65,7 @@ class GridSystem final : public sundials::ReducibleSystem {
 
   /// Longest way of a node that matters (cells), largest strain or turn of a particle, since the phase began.
   double travel(const double* y) const;
-  /// Of the nodes near those that boundaries hold (cells).
+  /// Of the nodes near those that boundaries hold, from where a boundary that moves has come to (cells).
   double travel_at_walls(const double* y) const;
   double deformation() const { return deformation_; }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "mpm/system.hpp"
 
 namespace vitrum {
@@ -16,6 +18,10 @@ struct PhaseBounds {
   double way_at_walls;  ///< cells that nodes near held ones may go; infinite where no body is about to meet
                         ///< or to leave them
 };
+/// Once the phase has begun: of the nodes that boundaries hold in it.
 PhaseBounds phase_bounds(const System& system, const RemapSettings& remap);
+
+/// Cells from a place (cells from the origin) to the nodes that a boundary holds; infinite: it holds none.
+double cells_to_held(const mpm::Grid& grid, std::size_t boundary, const std::array<double, 2>& place);
 
 }  // namespace vitrum

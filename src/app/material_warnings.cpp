@@ -17,9 +17,8 @@ std::vector<std::string> material_warnings(const MaterialParameters& m) {
   if (m.decohesion && m.decohesion->viscosity > 0.0 && m.decohesion->q < 1.0)
     list.push_back(fmt::format(
         "material.{}.decohesion.q: with {:g}, below 1, the traction falls infinitely fast at first, so that "
-        "with a "
-        "viscosity the equations leave open when decohesion begins: methods and tolerances may differ in it; "
-        "expected q >= 1, or viscosity = 0",
+        "with a viscosity the equations leave open when decohesion begins: methods and tolerances may differ "
+        "in it; expected q >= 1, or viscosity = 0",
         m.name, m.decohesion->q));
   return list;
 }
