@@ -55,47 +55,43 @@ std::string paced(const Integrator& integrator) {
              : fmt::format("method = \"explicit\"\nscheme = \"{}\"\nstep = 1e-8\n", integrator.name);
 }
 
+/// A body of glass, a particle a cell: its space and its motion, and the reading that it follows.
+Scene specimen(const std::string& space, double end, const std::string& motion, const Reading& reading,
+               const Integrator& integrator) {
+  return parse_scene(
+      fmt::format(
+          "[space]\n{}\ncell = 1e-3\nshape_functions = \"gimp\"\n{}\n[time]\nend = {}\n[integrator]\n{}"
+          "[[body]]\nname = \"specimen\"\nmaterial = \"glass\"\nparticles_per_cell = 1\n{}\n{}",
+          space, reading.space, end, paced(integrator), motion, glass(reading)),
+      "specimen.toml");
+}
+
 /// A strip between two grips that is pressed, pulled until it has separated, and pressed again, sheared on
 /// the whole time; the first pressing is the fastest.
 Scene strip(const Reading& reading, const Integrator& integrator) {
-  return parse_scene(
-      fmt::format("[space]\ngeometry = \"plane-strain\"\ncell = 1e-3\nshape_functions = \"gimp\"\n{}\n"
-                  "[time]\nend = 2.3e-6\n[integrator]\n{}"
-                  "[[body]]\nname = \"strip\"\nmaterial = \"glass\"\nbox = {{min = [0, 0], max = [0.005, "
-                  "0.002]}}\nparticles_per_cell = 1\nvelocity_gradient = [[-8000, 0], [0, 0]]\n"
-                  "[[boundary]]\nbox = {{min = [-inf, -inf], max = [0, inf]}}\nfix = [\"x\", \"y\"]\n"
-                  "[[boundary]]\nbox = {{min = [0.005, -inf], max = [inf, inf]}}\nmoves = false\n"
-                  "fix = [\"x\", \"y\"]\nvelocity = [\"=t < 0.3*us ? -40*cos(pi*t/(0.6*us)) : t < 1.5*us ? "
-                  "36*sin(pi*(t - 0.3*us)/(1.2*us)) : -90*sin(pi*(t - 1.5*us)/(0.8*us))\", "
-                  "\"=60*sin(pi*t/(2.3*us))\"]\n",
-                  reading.space, paced(integrator)) +
-          glass(reading),
-      "strip.toml");
+  return specimen(
+      "geometry = \"plane-strain\"", 2.3e-6,
+      "box = {min = [0, 0], max = [0.005, 0.002]}\nvelocity_gradient = [[-8000, 0], [0, 0]]\n"
+      "[[boundary]]\nbox = {min = [-inf, -inf], max = [0, inf]}\nfix = [\"x\", \"y\"]\n"
+      "[[boundary]]\nbox = {min = [0.005, -inf], max = [inf, inf]}\nmoves = false\nfix = [\"x\", \"y\"]\n"
+      "velocity = [\"=t < 0.3*us ? -40*cos(pi*t/(0.6*us)) : t < 1.5*us ? 36*sin(pi*(t - 0.3*us)/(1.2*us)) "
+      ": -90*sin(pi*(t - 1.5*us)/(0.8*us))\", \"=60*sin(pi*t/(2.3*us))\"]",
+      reading, integrator);
 }
 
 /// A ring that expands faster than it is stretched across: only the hoop plane breaks it.
 Scene ring(const std::string& plane, const Integrator& integrator) {
-  return parse_scene(
-      fmt::format("[space]\ngeometry = \"axisymmetric\"\ncell = 1e-3\nshape_functions = \"gimp\"\n"
-                  "[time]\nend = 1.2e-6\n[integrator]\n{}"
-                  "[[body]]\nname = \"ring\"\nmaterial = \"glass\"\nbox = {{min = [0.01, 0], max = [0.012, "
-                  "0.002]}}\nparticles_per_cell = 1\nvelocity = [50, 0]\n",
-                  paced(integrator)) +
-          glass({"", "", "", "plane = \"" + plane + "\"", ""}),
-      "ring.toml");
+  return specimen("geometry = \"axisymmetric\"", 1.2e-6,
+                  "box = {min = [0.01, 0], max = [0.012, 0.002]}\nvelocity = [50, 0]",
+                  {"", "", "", "plane = \"" + plane + "\"", ""}, integrator);
 }
 
 /// A square that is stretched along x, and half as fast pressed along y: while it damages, sigma_yy is
 /// compressive, until waves from the sides let go of it.
 Scene square(const std::string& partial_compression, const Integrator& integrator) {
-  return parse_scene(
-      fmt::format("[space]\ngeometry = \"plane-strain\"\ncell = 1e-3\nshape_functions = \"gimp\"\n"
-                  "[time]\nend = 0.4e-6\n[integrator]\n{}"
-                  "[[body]]\nname = \"square\"\nmaterial = \"glass\"\nbox = {{min = [0, 0], max = [0.005, "
-                  "0.005]}}\nparticles_per_cell = 1\nvelocity_gradient = [[12000, 0], [0, -6000]]\n",
-                  paced(integrator)) +
-          glass({"", "", "", "partial_compression = " + partial_compression, ""}),
-      "square.toml");
+  return specimen("geometry = \"plane-strain\"", 0.4e-6,
+                  "box = {min = [0, 0], max = [0.005, 0.005]}\nvelocity_gradient = [[12000, 0], [0, -6000]]",
+                  {"", "", "", "partial_compression = " + partial_compression, ""}, integrator);
 }
 
 /// What a run leaves: means of stress (over 100 MPa), decohesion, opening (over 10 um) and energies (over the
