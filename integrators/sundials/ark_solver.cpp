@@ -140,6 +140,9 @@ void ArkSolver::attach_linear_solver(const Context& context, LinearSolverKind li
   if (direct) {
     require(ARKodeSetLinearSolver(m, reduced_->interface(), reduced_->matrix()) == 0, "linear solver");
     require(ARKodeSetLinSysFn(m, Callbacks::linear_system) == 0, "linear system");
+    // A linearisation of a step before is no longer that of glass that cracks: which particles crack would
+    // be decided by what Newton's iteration leaves.
+    ARKodeSetJacEvalFrequency(m, 1);
   } else {
     constexpr int krylov_vectors = 60;
     krylov_.reset(allocated(SUNLinSol_SPGMR(y_.get(), SUN_PREC_RIGHT, krylov_vectors, context.get())));

@@ -43,6 +43,7 @@ VITRUM_ARKODE(SetFixedStepBounds);
 VITRUM_ARKODE(SetInitStep);
 VITRUM_ARKODE(SetInterpolantDegree);
 VITRUM_ARKODE(SetInterpolantType);
+VITRUM_ARKODE(SetJacEvalFrequency);
 VITRUM_ARKODE(SetLinSysFn);
 VITRUM_ARKODE(SetLinearSolver);
 VITRUM_ARKODE(SetMaxConvFails);

@@ -1,6 +1,7 @@
 """Runs under the adaptive methods: what they leave, reproducibility, checkpoints, and steps that collapse."""
 import json
 import signal
+import statistics
 import unittest
 
 import h5py
@@ -10,6 +11,7 @@ from support import CommandLineTest, here, impact, overrides, read_summary, told
 explicit = overrides(integrator__method='"arkode-explicit"', integrator__rtol=1e-2)
 implicit = overrides(integrator__method='"arkode-implicit"', integrator__rtol=1e-2, integrator__order=2)
 die = here / "scenes" / "die.toml"
+slow_test = here / "scenes" / "disk_on_ring.toml"
 methods = {"arkode-explicit": explicit, "arkode-implicit": implicit}
 # So many steps that there is time to interrupt.
 slow = {"arkode-explicit": [*explicit, *overrides(integrator__max_step=4e-9)],
@@ -44,6 +46,16 @@ class Results(CommandLineTest):
         """Percent of the energy that a run loses, and what it says."""
         answer = self.vitrum("run", scene, "--out", self.folder / name, "--quiet", *settings)
         return 100.0 * read_summary(self.folder / name)["energy"]["relative_residual"], answer.stderr
+
+    def localised(self, solver, percent):
+        """Particles that a slow test localises, with the tolerance changed by some percent."""
+        output = self.run_scene(f"{solver} {percent}", *overrides(integrator__linear_solver=f'"{solver}"', integrator__rtol=1e-3 * (1.0 + percent / 100.0)), scene=slow_test)
+        return read_summary(output)["failure"]["localised"]
+
+    def test_linear_solvers_crack_the_same_particles(self):
+        """Not for every tolerance, since failure is a matter of chance then: in the median over tolerances that are all but the same."""
+        direct, krylov = (statistics.median(self.localised(solver, percent) for percent in (-1.0, -0.5, 0.0, 0.5, 1.0)) for solver in ("klu", "gmres"))
+        self.assertEqual(direct, krylov)
 
     def test_advice_after_a_loss_helps(self):
         tile = self.folder / "tile.toml"
