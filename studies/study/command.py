@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from study.case import check
 from study.file import explained
 from study.outcome import StudyError
-from study.page import PageError, assemble, check_pictures, fill, publish, write_blocks
+from study.page import PageError, assemble, check_pictures, fill, pictures, pictures_of_blocks, publish, write_blocks
 
 
 def _check(cases):
@@ -26,14 +26,16 @@ def _report(study, quick, out):
         return 0
     folder = pathlib.Path(str(sys.modules[study.__name__].__file__)).parent
     page = assemble(fill((folder / "page.md").read_text(), values), study.name, quick, out)
-    check_pictures(page, out / "figures")
     blocks = {target: fill((folder / template).read_text(), study.block_values(quick, out)) for target, template in getattr(study, "blocks", {}).items()}
+    beside = getattr(study, "pictures", f"docs/pictures/study-{study.name}")
+    shown = [*pictures(page), *pictures_of_blocks(blocks, beside)]
+    check_pictures(shown, out / "figures")
     for target, text in blocks.items():
         (out / f"blocks-of-{target}").write_text(text)
     (out / "page.md").write_text(page)
     if not quick:
         name = study.name
-        publish(page, out / "figures", getattr(study, "page", f"docs/reports/study-{name}.md"), getattr(study, "pictures", f"docs/pictures/study-{name}"))
+        publish(page, shown, out / "figures", getattr(study, "page", f"docs/reports/study-{name}.md"), beside)
         for target, text in blocks.items():
             write_blocks(target, text)
     return 0

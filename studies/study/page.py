@@ -34,11 +34,16 @@ def pictures(page):
     return re.findall(r"\]\(figures/([^)]+)\)", page)
 
 
-def check_pictures(page, figures):
-    """Raises PageError when the page shows a picture that is not in its folder."""
-    missing = [name for name in pictures(page) if not (pathlib.Path(figures) / name).exists()]
+def pictures_of_blocks(blocks, beside):
+    """Names of the study's pictures that other pages show in its blocks, by their paths from the project's root."""
+    return [name for text in blocks.values() for name in re.findall(rf'="{re.escape(beside)}/([^"]+)"', text)]
+
+
+def check_pictures(names, figures):
+    """Raises PageError when a picture that is shown is not in its folder."""
+    missing = [name for name in names if not (pathlib.Path(figures) / name).exists()]
     if missing:
-        raise PageError(f"the page shows pictures that nobody drew: {', '.join(missing)}")
+        raise PageError(f"pictures are shown that nobody drew: {', '.join(missing)}")
 
 
 def machine():
@@ -77,13 +82,13 @@ def assemble(text, name, quick, out):
     return f"{title}\n\n{measured_by(command)}\n{body}\n{provenance(name, quick, out)}"
 
 
-def publish(page, figures, target, beside):
-    """Puts the page where readers find it, and the pictures that it shows beside it; paths from the project's root."""
+def publish(page, shown, figures, target, beside):
+    """Puts the page where readers find it, and the pictures that are shown beside it; paths from the project's root."""
     folder = root / beside
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.png"):
         old.unlink()
-    for picture in pictures(page):
+    for picture in shown:
         shutil.copy(pathlib.Path(figures) / picture, folder)
     (root / target).write_text(page.replace("](figures/", f"]({os.path.relpath(root / beside, (root / target).parent)}/"))
 

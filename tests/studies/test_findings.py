@@ -22,8 +22,15 @@ class Findings(StudyTest):
     def test_blocks_of_the_front_page(self):
         text = (self.out / "blocks-of-README.md").read_text()
         self.assertNotIn("{{", text)
-        for part in ("1.7 times the critical one", "of the impact's energy made by the numerics", "closes the account within", "at commit "):
+        for part in ("1.7 times the critical one", "of the impact's energy made by the numerics", "closes the account within", "`study findings` at "):
             self.assertIn(part, text)
+
+    def test_pictures_of_the_front_page_are_drawn_and_published(self):
+        from findings import study
+        from study.page import pictures_of_blocks
+        names = pictures_of_blocks({"README.md": (self.out / "blocks-of-README.md").read_text()}, study.pictures)
+        self.assertEqual(len(names), 1)
+        self.assertTrue((self.out / "figures" / names[0]).exists(), names)
 
     def test_picture_carries_its_scene(self):
         text = png_text(self.out / "figures" / "reference_case.png")
