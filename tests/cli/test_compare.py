@@ -51,6 +51,19 @@ class Compare(CommandLineTest):
         self.assertIn("energy.kinetic", text)
         self.assertIn("position", text)
 
+    def test_the_failure_of_one_body_is_listed_once(self):
+        """As that body's. --json has both."""
+        a, b = (self.run_scene(name, "--set", f"body.1.velocity.1={speed}") for name, speed in (("a", -100.0), ("b", -140.0)))
+        quantities = self.compared(a, b)["quantities"]
+        alone = [name for name in quantities if name.startswith("failure.") and quantities[name]["a"] != quantities[name]["b"]
+                 and any(other.startswith("bodies.") and other.endswith(name.removeprefix("failure")) and
+                         all(quantities[other][side] == quantities[name][side] for side in "ab") for other in quantities)]
+        self.assertTrue(alone)
+        text = self.vitrum("compare", a, b).stdout
+        for name in alone:
+            self.assertNotIn(f" {name} ", text)
+        self.assertIn(f"{sum(q['a'] != q['b'] for q in quantities.values()) - len(alone)} of {len(quantities)} differ", text)
+
     def test_root_mean_squares(self):
         a, b = self.run_scene("a"), self.run_scene("b", "--set", "body.1.velocity.1=-101.0")
         with h5py.File(a / "result.h5") as x, h5py.File(b / "result.h5") as y:
